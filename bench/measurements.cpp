@@ -4,7 +4,7 @@
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"
 #include "pipeline/memory.h"
-#include "pipeline/thinned_scene.h"
+#include "pipeline/scene_run.h"
 #include "vcarve/io.h"
 #include "vcarve/reconstruct.h"
 
@@ -107,13 +107,12 @@ Run make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
-    cli::ModelArguments model;
-    model.path = sample.model;
-    cli::ModelInput input =
-        cli::read_model_input(model, log, {.gather = thin_while_reading(options.thin)});
+    ReadModel input = read_found_model(find_input(sample.model, {}), log,
+                                       {.gather = thin_while_reading(options.thin)});
     RunSize size = size_before_thinning(input.read, options);
     size.thinned = size_of(input.scene);
-    Reconstruction made = reconstruct_thinned(std::move(input.scene), input.read, options, log);
+    Reconstruction made =
+        reconstruct_thinned(std::move(input.scene), input.read, {options, RunImages(), log});
     Stage stage(log, "write");
     write_ply(sample.scratch / "surface.ply", made.mesh, {});
     stage.end({{"faces", made.mesh.faces.size()}});

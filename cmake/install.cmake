@@ -17,7 +17,7 @@ if(library_type STREQUAL "SHARED_LIBRARY")
 else()
   set(VCARVE_IS_SHARED FALSE)
   string(CONCAT VCARVE_STATIC_LIBS " -lOpenMeshTools -lOpenMeshCore -ltbb -ltbbmalloc -lfmt"
-    " -lgmp -lmpfr -lmeshoptimizer -ljpeg -lpng -ltiff -lwebp")
+    " -lgmp -lmpfr -lmeshoptimizer -lembree${EMBREE_VERSION_MAJOR} -ljpeg -lpng -ltiff -lwebp")
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vcarveConfig.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake INSTALL_DESTINATION ${package_folder})

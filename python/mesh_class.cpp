@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace vcarve::python {
 
@@ -64,13 +66,20 @@ void write(const Mesh& mesh, const std::filesystem::path& path, bool ascii,
 {
     require_valid(mesh.surface);
     if (!offset.allFinite()) throw UsageError("the offset is not finite");
-    // Only PLY can store it.
-    const bool has_provenance =
-        !mesh.provenance.point_ids.empty() && lower_case_end(path) == ".ply";
-    const MeshFormat format = {.ascii = ascii,
-                               .comments = {"made by colmap-vcarve " + versions().program},
-                               .provenance = has_provenance ? &mesh.provenance : nullptr,
-                               .offset = offset};
+    // Only some formats can store these.
+    const std::string end = lower_case_end(path);
+    const bool has_provenance = !mesh.provenance.point_ids.empty() && end == ".ply";
+    const bool has_texture =
+        !mesh.texture.is_empty() && (end == ".glb" || end == ".obj" || end == ".ply");
+    MeshFormat format = {.ascii = ascii,
+                         .comments = mesh.comments,
+                         .provenance = has_provenance ? &mesh.provenance : nullptr,
+                         .texture = has_texture ? &mesh.texture : nullptr,
+                         .offset = offset,
+                         .up = mesh.up};
+    if (format.comments.empty()) {
+        format.comments = {"made by colmap-vcarve " + versions().program};
+    }
     const py::gil_scoped_release released;
     write_mesh(path, mesh.surface, format);
 }
@@ -92,9 +101,47 @@ auto arrays_of(Mesh& mesh)
                     mesh.provenance.num_views, mesh.provenance.errors_px, mesh.provenance.supports);
 }
 
+/// (pages, page_of_face, places): pages are arrays (height, width, 3), and places are positions of
+/// corners in their pages, (faces, 3, 2). None without a texture.
+py::object texture_of(const std::shared_ptr<Mesh>& mesh)
+{
+    Texture& texture = mesh->texture;
+    if (texture.is_empty()) return py::none();
+    py::list pages;
+    for (Photograph& page : texture.pages) {
+        pages.append(view_of(page.rgb, mesh).attr("reshape")(page.height_px, page.width_px, 3));
+    }
+    auto* const first = reinterpret_cast<float*>(texture.places.data());
+    const auto faces = static_cast<py::ssize_t>(texture.places.size());
+    return py::make_tuple(
+        pages, view_of(texture.page_of_face, mesh),
+        py::array_t<float>({faces, py::ssize_t{3}, py::ssize_t{2}}, first, py::cast(mesh)));
+}
+
+/// The reverse of texture_of(); copies.
+Texture texture_from(const py::object& given)
+{
+    Texture texture;
+    if (given.is_none()) return texture;
+    const auto [pages, page_of_face, places] =
+        py::cast<std::tuple<std::vector<py::array_t<std::uint8_t, py::array::c_style>>,
+                            std::vector<std::uint32_t>, py::array_t<float, py::array::c_style>>>(
+            given);
+    for (const auto& page : pages) {
+        texture.pages.push_back({static_cast<int>(page.shape(1)),
+                                 static_cast<int>(page.shape(0)),
+                                 {page.data(), page.data() + page.size()}});
+    }
+    texture.page_of_face = page_of_face;
+    texture.places.resize(page_of_face.size());
+    std::copy_n(places.data(), places.size(), reinterpret_cast<float*>(texture.places.data()));
+    return texture;
+}
+
 py::tuple state_of(const std::shared_ptr<Mesh>& mesh)
 {
-    return py::make_tuple(tuple_of_arrays(arrays_of(*mesh), mesh), mesh->counts);
+    return py::make_tuple(tuple_of_arrays(arrays_of(*mesh), mesh), mesh->counts, texture_of(mesh),
+                          mesh->comments, mesh->up);
 }
 
 std::shared_ptr<Mesh> unpickled(const py::tuple& state)
@@ -102,6 +149,9 @@ std::shared_ptr<Mesh> unpickled(const py::tuple& state)
     auto mesh = std::make_shared<Mesh>();
     set_arrays(arrays_of(*mesh), state[0]);
     mesh->counts = state[1].attr("copy")();
+    mesh->texture = texture_from(state[2]);
+    mesh->comments = py::cast<std::vector<std::string>>(state[3]);
+    mesh->up = py::cast<Eigen::Vector3d>(state[4]);
     return mesh;
 }
 
@@ -146,6 +196,7 @@ void add_mesh_class(py::module_& module)
         .def_property_readonly("num_views", array_of(&Mesh::provenance, &Provenance::num_views))
         .def_property_readonly("errors_px", array_of(&Mesh::provenance, &Provenance::errors_px))
         .def_property_readonly("support", array_of(&Mesh::provenance, &Provenance::supports))
+        .def_property_readonly("_texture", &texture_of)
         .def_readonly("counts", &Mesh::counts)
         .def(py::pickle(&state_of, &unpickled))
         .def("write", &write, py::arg("path"), py::kw_only(), py::arg("ascii") = false,

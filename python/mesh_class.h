@@ -1,9 +1,13 @@
 #pragma once
 
 #include "vcarve/provenance.h"
+#include "vcarve/texture.h"
 #include "vcarve/tri_mesh.h"
 
 #include <pybind11/pybind11.h>
+
+#include <string>
+#include <vector>
 
 namespace vcarve::python {
 
@@ -11,7 +15,10 @@ namespace vcarve::python {
 struct Mesh {
     TriMesh surface; ///< its offset is zero
     Provenance provenance;
-    pybind11::dict counts; ///< counts of every stage of the run
+    Texture texture;
+    std::vector<std::string> comments;            ///< of its files
+    Eigen::Vector3d up = Eigen::Vector3d::Zero(); ///< up in .glb; zero keeps y
+    pybind11::dict counts;                        ///< counts of every stage of the run
 };
 
 /// Adds the offset to positions, so they are in the frame of the model. Files do not change.

@@ -3,6 +3,7 @@
 #include "arguments.h"
 #include "arrays.h"
 #include "base/version.h"
+#include "io/formats/output_frame.h"
 #include "logged_run.h"
 #include "mesh_class.h"
 #include "options/declared.h"
@@ -19,6 +20,7 @@
 
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace vcarve::python {
 
@@ -26,10 +28,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::shared_ptr<Mesh> mesh_of(Reconstruction made, bool attributes)
+/// What reconstruct() needs besides the input.
+struct RunKeywords {
+    Options options;
+    bool attributes = false;
+    WordOrVector up;
+};
+
+RunKeywords run_keywords(const py::dict& keywords, const py::dict& output, bool attributes)
+{
+    RunKeywords run;
+    run.attributes = attributes;
+    set_options(options_of(run.options), keywords);
+    set_options({up_option(run.up)}, output);
+    return run;
+}
+
+std::shared_ptr<Mesh> mesh_of(Reconstruction made, const RunKeywords& run)
 {
     auto mesh = std::make_shared<Mesh>();
-    if (attributes) mesh->provenance = find_provenance(made.mesh, made.scene);
+    if (run.attributes) mesh->provenance = find_provenance(made.mesh, made.scene);
+    mesh->up = up_for(made.scene, run.up, std::nullopt);
+    mesh->texture = std::move(made.texture);
+    mesh->comments = std::move(made.comments);
+    if (run.attributes) mesh->comments.emplace_back("option attributes");
     mesh->surface = in_frame_of_model(std::move(made.mesh));
     return mesh;
 }
@@ -50,36 +72,38 @@ AnyOptions options_from(const py::dict& keywords)
 }
 
 std::shared_ptr<Mesh> reconstruct_scene(const std::shared_ptr<Scene>& scene,
-                                        const py::dict& keywords, bool attributes,
-                                        const py::object& listener)
+                                        const py::dict& keywords, const py::dict& output,
+                                        bool attributes, const py::object& listener)
 {
-    const auto options = options_from<Options>(keywords);
+    const RunKeywords run = run_keywords(keywords, output, attributes);
     std::optional<Reconstruction> made;
-    run_told(listener, [&](Log& log) { made = reconstruct(Scene(*scene), options, log); });
-    return mesh_of(std::move(*made), attributes);
+    run_told(listener, [&](Log& log) { made = reconstruct(Scene(*scene), run.options, log); });
+    return mesh_of(std::move(*made), run);
 }
 
 /// Moves the arrays of the scene instead of copying them; the scene is empty afterwards.
 std::shared_ptr<Mesh> consume_scene(const std::shared_ptr<Scene>& scene, const py::dict& keywords,
-                                    bool attributes, const py::object& listener)
+                                    const py::dict& output, bool attributes,
+                                    const py::object& listener)
 {
-    const auto options = options_from<Options>(keywords);
+    const RunKeywords run = run_keywords(keywords, output, attributes);
     require_unseen(scene);
     std::optional<Reconstruction> made;
-    run_told(listener,
-             [&](Log& log) { made = reconstruct(std::exchange(*scene, Scene()), options, log); });
-    return mesh_of(std::move(*made), attributes);
+    run_told(listener, [&](Log& log) {
+        made = reconstruct(std::exchange(*scene, Scene()), run.options, log);
+    });
+    return mesh_of(std::move(*made), run);
 }
 
 std::shared_ptr<Mesh> reconstruct_model(const fs::path& model, const py::dict& input,
-                                        const py::dict& keywords, bool attributes,
-                                        const py::object& listener)
+                                        const py::dict& keywords, const py::dict& output,
+                                        bool attributes, const py::object& listener)
 {
     const PointsOptions points = points_of(input);
-    const auto options = options_from<Options>(keywords);
+    const RunKeywords run = run_keywords(keywords, output, attributes);
     std::optional<Reconstruction> made;
-    run_told(listener, [&](Log& log) { made = reconstruct(model, points, options, log); });
-    return mesh_of(std::move(*made), attributes);
+    run_told(listener, [&](Log& log) { made = reconstruct(model, points, run.options, log); });
+    return mesh_of(std::move(*made), run);
 }
 
 std::shared_ptr<Scene> read_scene(const fs::path& model, const py::dict& input,
@@ -89,6 +113,26 @@ std::shared_ptr<Scene> read_scene(const fs::path& model, const py::dict& input,
     auto scene = std::make_shared<Scene>();
     run_told(listener, [&](Log& log) { *scene = read_model(model, points, log); });
     return scene;
+}
+
+/// Textures a mesh with the photographs of a model, the path or a scene.
+std::shared_ptr<Mesh> texture_mesh(const std::variant<std::shared_ptr<Scene>, fs::path>& model,
+                                   const std::shared_ptr<Mesh>& mesh, const py::dict& keywords,
+                                   const py::object& listener)
+{
+    const auto options = options_from<Options>(keywords);
+    require_corners(mesh->surface);
+    auto made = std::make_shared<Mesh>();
+    TexturedMesh textured;
+    run_told(listener, [&](Log& log) {
+        const auto* const path = std::get_if<fs::path>(&model);
+        textured = path == nullptr ? texture(*std::get<0>(model), mesh->surface, options, log)
+                                   : texture(*path, mesh->surface, options, log);
+    });
+    made->surface = std::move(textured.mesh);
+    made->texture = std::move(textured.texture);
+    made->up = textured.up;
+    return made;
 }
 
 using NamedShared = std::pair<std::string, std::shared_ptr<Mesh>>;
@@ -123,6 +167,15 @@ py::dict declared_options()
     py::dict all;
     all["input"] = describe(options_of(points));
     all["reconstruct"] = describe(options_of(options));
+    OptionList for_texture = options_of(options);
+    std::erase_if(for_texture, [](const Option& option) {
+        const std::string& name = option.info.name;
+        return name != "images" && name != "masks" && name != "texture-scale" &&
+               option.stage != kRunStage;
+    });
+    all["texture"] = describe(for_texture);
+    WordOrVector up;
+    all["output"] = describe({up_option(up)});
     all["compare"] = describe(options_of(compare));
     return all;
 }
@@ -147,6 +200,7 @@ PYBIND11_MODULE(_vcarve, module)
     module.def("reconstruct_scene", &reconstruct_scene);
     module.def("consume_scene", &consume_scene);
     module.def("reconstruct_model", &reconstruct_model);
+    module.def("texture_mesh", &texture_mesh);
     module.def("read_scene", &read_scene);
     module.def("compare_meshes", &compare_meshes);
     module.def("declared_options", &declared_options);

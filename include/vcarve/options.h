@@ -3,8 +3,29 @@
 #include "vcarve/region.h"
 
 #include <cstdint>
+#include <filesystem>
 
 namespace vcarve {
+
+/// Dense points, computed from the photographs.
+struct DenseOptions {
+    bool dense = false; ///< replace the sparse points by dense points
+    int size_px = 640;  ///< longest side of the photographs while they are matched; higher gives
+                        ///< more points, and takes time that grows with its square
+};
+
+/// Masks of the photographs.
+struct MaskOptions {
+    /// Folder with NAME.png for the photograph NAME, whose black pixels are excluded: they give no
+    /// colors and dense points, and faces that most views see only there are removed. Empty: none.
+    std::filesystem::path folder;
+};
+
+/// Texture made of the photographs.
+struct TextureOptions {
+    bool texture = false; ///< make a texture
+    double scale = 1.0;   ///< texels per photograph pixel, along a side; higher needs more memory
+};
 
 /// Filter for input points.
 struct FilterOptions {
@@ -99,9 +120,11 @@ struct LabelOptions {
 /// Thresholds of the rules that keep or drop faces of the boundary. The terms are defined in
 /// src/steps/6_surface/face_rules.h.
 struct FaceRules {
+    static constexpr double kAutoClosing = -1.0; ///< 0.115, or 0.02 with DenseOptions::dense
+
     /// Edge length of a long face, as a fraction of the diameter of the region of interest. Higher
     /// keeps more large faces; 0 keeps all visible faces, and trims none.
-    double max_closing = 0.115;
+    double max_closing = kAutoClosing;
     /// Length from which visible bent rim faces drop, in `max_closing`; higher keeps more.
     double rim_closing = 2.0;
     /// Minimum visible fraction of long faces that bend away; higher drops more; 0 disables.
@@ -158,6 +181,12 @@ struct MemoryOptions {
 
 /// All options of a run, one struct per step.
 struct Options {
+    /// Folder of the photographs, for colors, texture and dense points. Empty: these are taken from
+    /// the folder `images` beside the model, and colors from the points.
+    std::filesystem::path images;
+    DenseOptions dense;             ///< dense points
+    MaskOptions masks;              ///< masks of the photographs
+    TextureOptions texture;         ///< texture
     FilterOptions points;           ///< filter for input points
     AddedPointOptions added_points; ///< points added on planes
     ThinOptions thin;               ///< merging of dense points

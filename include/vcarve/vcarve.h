@@ -22,4 +22,5 @@
 #include "vcarve/reconstruct.h"
 #include "vcarve/region.h"
 #include "vcarve/scene.h"
+#include "vcarve/texture.h"
 #include "vcarve/tri_mesh.h"

@@ -18,6 +18,12 @@ def model():
 
 
 @pytest.fixture
+def photographed():
+    """A model beside its photographs."""
+    return ROOT / "fixtures/desk_photos/sparse"
+
+
+@pytest.fixture
 def program():
     """Runs the program. Fails if the program fails."""
     return lambda *words: subprocess.run([PROGRAM, *map(str, words)], check=True)

@@ -1,6 +1,7 @@
 """Runs: the same mesh as the program's, options, progress, interruption, errors."""
 import logging
 import os
+import pickle
 import signal
 import threading
 import time
@@ -17,12 +18,49 @@ def test_a_model_gives_the_same_bytes_as_the_program(model, program, tmp_path):
             tmp_path / "program.ply")
     mesh = vcarve.reconstruct(model, max_hole=20, crop="auto", attributes=True)
     mesh.write(tmp_path / "python.ply")
-    # The files differ only in the comments about the command line, which Python does not have.
-    lines = (tmp_path / "program.ply").read_bytes().splitlines(keepends=True)
-    record = [line for line in lines if line.startswith((b"comment input ", b"comment option "))]
-    assert len(record) > 1
-    assert (tmp_path / "python.ply").read_bytes() == b"".join(
-        line for line in lines if line not in record)
+    assert (tmp_path / "python.ply").read_bytes() == (tmp_path / "program.ply").read_bytes()
+
+
+def test_photographs_give_the_same_file_as_the_program(photographed, program, tmp_path):
+    program("--quiet", "--dense", "--dense-size", 160, "--texture", "--up", "z", photographed,
+            tmp_path / "program.glb")
+    mesh = vcarve.reconstruct(photographed, dense=True, dense_size=160, texture=True, up="z")
+    mesh.write(tmp_path / "python.glb")
+    assert "fuse" in mesh.counts
+    assert (tmp_path / "python.glb").read_bytes() == (tmp_path / "program.glb").read_bytes()
+
+
+def test_a_texture_has_pages_and_coordinates(photographed):
+    mesh = vcarve.reconstruct(photographed, texture=True, texture_scale=0.5)
+    pages, page_of_face, coordinates = mesh.texture
+    assert page_of_face.shape == (len(mesh.faces),)
+    assert coordinates.shape == (len(mesh.faces), 3, 2)
+    assert coordinates.min() >= 0 and coordinates.max() <= 1
+    assert page_of_face.max() == len(pages) - 1
+    assert all(page.dtype == np.uint8 and page.shape[2] == 3 for page in pages)
+    again = pickle.loads(pickle.dumps(mesh)).texture
+    assert np.array_equal(again.pages[0], pages[0])
+    assert np.array_equal(again.coordinates, coordinates)
+    assert vcarve.reconstruct(photographed).texture is None
+
+
+def test_any_mesh_can_be_textured(photographed, program, tmp_path):
+    mesh = vcarve.reconstruct(photographed)
+    mesh.write(tmp_path / "mesh.ply")
+    program("texture", "--quiet", photographed, tmp_path / "mesh.ply", tmp_path / "program.glb")
+    vcarve.texture(photographed, mesh).write(tmp_path / "python.glb")
+    assert (tmp_path / "python.glb").read_bytes() == (tmp_path / "program.glb").read_bytes()
+    of_scene = vcarve.texture(vcarve.read_model(photographed), mesh,
+                              images=photographed.parent / "images")
+    assert len(of_scene.texture.pages) > 0
+
+
+def test_a_scene_needs_the_folder_of_its_photographs(photographed):
+    scene = vcarve.read_model(photographed)
+    with pytest.raises(vcarve.UsageError, match="--images"):
+        vcarve.reconstruct(scene, texture=True)
+    made = vcarve.reconstruct(scene, texture=True, images=photographed.parent / "images")
+    assert made.texture.pages
 
 
 def test_a_scene_gives_the_mesh_of_its_model(model):

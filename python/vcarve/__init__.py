@@ -9,6 +9,7 @@ A scene may also be made of arrays (Scene.from_arrays) or of a pycolmap reconstr
 of the command line are keywords with the same names, ranges and meanings. Runs log to the logger
 "vcarve". Ctrl-C ends a run within a second. Other Python threads continue during a run.
 """
+import collections
 import json
 import os
 
@@ -17,7 +18,15 @@ from ._runs import Listener
 from ._vcarve import Error, InputError, Mesh, Scene, UsageError, __version__, read_mesh
 
 __all__ = ["Error", "InputError", "Mesh", "Scene", "UsageError", "__version__", "compare",
-           "read_mesh", "read_model", "reconstruct"]
+           "Texture", "read_mesh", "read_model", "reconstruct", "texture"]
+
+Texture = collections.namedtuple("Texture", "pages page_of_face coordinates")
+Texture.__doc__ = """The texture of a mesh.
+
+`pages` is a list of images (height, width, 3), `page_of_face` (m,) has the page of each face, and
+`coordinates` (m, 3, 2) the positions of the corners: (0, 0) is the upper left corner of the page,
+(1, 1) the lower right corner.
+"""
 
 
 def _is_path(model):
@@ -42,27 +51,45 @@ def read_model(model, *, progress=None, **options):
     return _vcarve.read_scene(model, options, Listener(progress))
 
 
-@_options.takes("input", "reconstruct")
+@_options.takes("input", "reconstruct", "output")
 def reconstruct(scene, *, attributes=False, consume=False, progress=None, **options):
     """Makes the mesh of a scene, as `colmap-vcarve MODEL OUT.ply` does.
 
     `scene` is a Scene, the path of a model, or an object like pycolmap.Reconstruction. With
     `attributes`, the mesh has the input point of each vertex, and the number of views that support
-    each face. With `consume`, the arrays of a Scene are moved instead of copied; no NumPy arrays of
+    each face. With `dense`, dense points are computed from the photographs; with `texture`,
+    Mesh.texture is made of them. A Scene needs their folder, `images`. `up` is the direction of
+    .glb files. With `consume`, the arrays of a Scene are moved instead of copied; no NumPy arrays of
     the scene may exist then. Calls `progress(stage, share)`; shares increase from 0 to 1 in every
     stage. An exception of `progress` ends the run.
     Raises UsageError if an option is out of range or the scene is inconsistent. Raises InputError
     if a file is wrong or the scene has too little data for a surface.
     """
     given, settings = _options.split(options, "input")
+    output, settings = _options.split(settings, "output")
     listener = Listener(progress)
     if _is_path(scene):
-        mesh = _vcarve.reconstruct_model(scene, given, settings, attributes, listener)
+        mesh = _vcarve.reconstruct_model(scene, given, settings, output, attributes, listener)
     else:
         run = _vcarve.consume_scene if consume else _vcarve.reconstruct_scene
-        mesh = run(_scene_of(scene, given, listener), settings, attributes, listener)
+        mesh = run(_scene_of(scene, given, listener), settings, output, attributes, listener)
     mesh.counts.update(listener.counts)
     return mesh
+
+
+@_options.takes("texture")
+def texture(model, mesh, *, progress=None, **options):
+    """Textures a mesh with the photographs of a model, as `colmap-vcarve texture` does.
+
+    `model` is the path of a model, or a scene as for reconstruct(), which needs `images`. `mesh` is
+    a Mesh in the model's frame, or the path of a PLY file. Returns a Mesh with a texture, whose
+    faces may be parts of those of `mesh`. Calls `progress(stage, share)`, see reconstruct().
+    """
+    listener = Listener(progress)
+    scene = model if _is_path(model) else _scene_of(model, {}, listener)
+    made = _vcarve.texture_mesh(scene, _named(mesh, "mesh")[1], options, listener)
+    made.counts.update(listener.counts)
+    return made
 
 
 def _named(mesh, name):
@@ -99,6 +126,11 @@ def compare(model, meshes, truth=None, *, progress=None, **options):
                                              named_truth, settings, listener))
 
 
+def _texture_of(mesh):
+    """The Texture of a mesh made with `texture=True`, else None. The arrays are not copied."""
+    return None if mesh._texture is None else Texture(*mesh._texture)
+
+
 def _mesh_text(mesh):
     return f"<vcarve.Mesh: {len(mesh.vertices):,} vertices, {len(mesh.faces):,} faces>"
 
@@ -115,6 +147,7 @@ not finite, and degenerate faces raise UsageError with the index. The arrays are
 memory, without a copy. Arrays without data are empty.
 """
 Mesh.__repr__ = _mesh_text
+Mesh.texture = property(_texture_of)
 Scene.__repr__ = _scene_text
 Scene.__module__ = Mesh.__module__ = "vcarve"
 Scene.from_arrays = staticmethod(_scenes.from_arrays)

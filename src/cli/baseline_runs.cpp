@@ -221,7 +221,7 @@ ScratchFolder::~ScratchFolder()
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log)
 {
-    const FoundInput input = find_input(run.model.path, run.model.all_points());
+    const FoundInput& input = run.found;
     std::vector<BaselineMesh> meshes;
     run_program(colmap_baseline(run, input, scratch.path()), scratch.path(), meshes, log);
     run_program(own_baseline(run, input, scratch.path()), scratch.path(), meshes, log);

@@ -41,7 +41,8 @@ class ScratchFolder {
 /// COLMAP's program, its input and its options.
 struct BaselineRun {
     std::string colmap;
-    ModelArguments model;
+    const ModelArguments& model;
+    const FoundInput& found;
     BaselineRunOptions options;
     int threads = 0; ///< maximum threads of either program; 0 disables
 };

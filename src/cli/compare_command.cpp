@@ -14,6 +14,7 @@
 #include "io/formats/mesh_file.h"
 #include "io/ply/ply_file.h"
 #include "options/declared.h"
+#include "picture/eye.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -102,19 +103,23 @@ CompareArguments read_arguments(const ParsedArguments& given)
     return arguments;
 }
 
-/// Reports unreadable inputs and unwritable outputs before the work starts.
-void check_files(const CompareArguments& arguments)
+/// Reports unreadable inputs and unwritable outputs before the work starts. Returns the model.
+RunInput checked_input(const CompareArguments& arguments, Log& log)
 {
+    const PreviewArguments& preview = arguments.outputs.preview;
+    RunInput model = resolve_input(arguments.model.path, arguments.model.all_points(), {},
+                                   needs_view(preview), log);
     std::vector<fs::path> inputs = arguments.meshes;
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
-    check_outputs(arguments.outputs, arguments.model, inputs);
-    check_images(arguments.model, {}, false, arguments.outputs.preview);
+    check_outputs(arguments.outputs, model, inputs);
+    if (!model.views.views.empty()) named_view(model.views, preview.view);
     for (const fs::path& input : inputs) {
         if (is_mesh_name(input) && lower_case_end(input) != ".ply") {
             throw UsageError(fmt::format("{}: compare reads PLY files only", input.string()));
         }
         read_ply_header(input);
     }
+    return model;
 }
 
 /// Removes partial files if a signal ends the run.
@@ -129,13 +134,15 @@ void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* s
 }
 
 /// The meshes of COLMAP and of this program; empty without --colmap.
-std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& log)
+std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, const FoundInput& found,
+                                       Log& log)
 {
     if (arguments.colmap.empty()) return {};
     const ScratchFolder scratch;
     remove_on_signals(arguments, &scratch);
     return run_baselines({.colmap = arguments.colmap.string(),
                           .model = arguments.model,
+                          .found = found,
                           .options = arguments.colmap_run,
                           .threads = arguments.console.threads},
                          scratch, log);
@@ -236,20 +243,19 @@ Manual compare_manual()
 void run_compare(const ParsedArguments& given)
 {
     const CompareArguments arguments = read_arguments(given);
-    check_files(arguments);
-
     const tbb::global_control limit(
         tbb::global_control::max_allowed_parallelism,
         static_cast<std::size_t>(threads_or_all(arguments.console.threads)));
     ConsoleLog log(console_on_stderr(arguments.console.quiet, arguments.console.verbose));
+    const RunInput input = checked_input(arguments, log);
 
-    std::vector<BaselineMesh> baselines = baselines_of(arguments, log);
+    std::vector<BaselineMesh> baselines = baselines_of(arguments, input.found, log);
     remove_on_signals(arguments, nullptr);
     if (baselines.empty() && arguments.meshes.empty()) {
         throw InputError(fmt::format("found nothing to compare: neither program made a mesh of {}",
                                      arguments.model.path.string()));
     }
-    ModelInput model = read_model_input(arguments.model, log);
+    ReadModel model = read_found_model(input.found, log);
     PreviewOutput preview(arguments.outputs.preview);
     preview.set_scene(model.scene);
     CompareReport report(arguments.outputs.report);

@@ -80,7 +80,7 @@ void check_names(const CompareOutputs& outputs, const ParsedArguments& given)
     require_distinct(written(outputs));
 }
 
-void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
+void check_outputs(const CompareOutputs& outputs, const RunInput& input,
                    const std::vector<fs::path>& meshes)
 {
     std::vector<Output> read;
@@ -88,7 +88,7 @@ void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
     for (const fs::path& mesh : meshes) {
         read.push_back({"the mesh", mesh});
     }
-    keep_inputs(written(outputs), model, read);
+    keep_inputs(written(outputs), input, read);
     for (const Output& output : written(outputs)) {
         require_writable(output.path);
     }

@@ -31,7 +31,7 @@ OptionList output_options(CompareOutputs& outputs);
 void check_names(const CompareOutputs& outputs, const ParsedArguments& given);
 
 /// Throws UsageError if an input would be replaced (see keep_inputs), or a file cannot be written.
-void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
+void check_outputs(const CompareOutputs& outputs, const RunInput& input,
                    const std::vector<std::filesystem::path>& meshes);
 
 /// The page of a comparison, if requested; otherwise it does nothing.

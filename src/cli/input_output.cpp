@@ -7,11 +7,10 @@
 #include "io/colmap/transforms_json.h"
 #include "io/files/output_file.h"
 #include "io/input/find_input.h"
-#include "model/views.h"
 #include "vcarve/error.h"
-#include "vcarve/io.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -96,56 +95,67 @@ void prepare_outputs(std::span<const Output> outputs, const fs::path& scratch)
     }
 }
 
-void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
-                 std::span<const Output> others)
+void keep_inputs(std::span<const Output> outputs, const RunInput& input,
+                 const std::vector<Output>& others)
 {
-    for (const Output& output : outputs) {
-        refuse_replacing(output, others);
-    }
     if (std::ranges::none_of(outputs, is_file, &Output::path)) return;
-    const FoundInput found = find_input(model.path, model.all_points());
-    std::vector<Output> inputs;
-    for (const fs::path& file : input_files(model.path, found)) {
+    std::vector<Output> inputs = others;
+    for (const fs::path& file : input_files(input.path, input.found)) {
         inputs.push_back({"the input", file});
     }
+    const auto add = [&](const std::optional<Photographs>& images, const char* name) {
+        if (!images) return;
+        for (const fs::path& file : images->of_view) {
+            if (!file.empty()) inputs.push_back({name, file});
+        }
+    };
+    add(input.images.photographs, "the photograph");
+    add(input.images.masks, "the mask");
     for (const Output& output : outputs) {
         if (!is_file(output.path)) continue;
         refuse_replacing(output, inputs);
-        if (is_image_of_views(output.path, found)) refuse(output, {"the image", output.path});
+        if (is_image_of_views(output.path, input.found)) refuse(output, {"the image", output.path});
     }
 }
 
-ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading)
+fs::path folder_beside(const fs::path& out)
 {
-    ModelInput input = {read_found_model(model.path, model.all_points(), log, reading), {}};
-    const FoundModel& found = input.found.model;
-    constexpr std::array kFormats = {"binary", "text", "transforms"};
-    input.record = {{"model", model.path.string()},
-                    {"folder", found.folder.string()},
-                    {"format", kFormats.at(static_cast<std::size_t>(found.format))},
-                    {"cloud", nullptr},
-                    {"points", input.read.points},
-                    {"views", input.read.views},
-                    {"rays", input.read.rays}};
-    if (input.found.scan) input.record["cloud"] = input.found.scan->cloud.string();
-    if (input.found.scan && found.folder.empty()) {
-        input.record["folder"] = nullptr;
-        input.record["format"] = nullptr;
-    }
-    if (input.found.dense) input.record["cloud"] = input.found.dense->cloud.string();
-    return input;
+    std::error_code error;
+    const bool is_device = fs::is_character_file(out, error);
+    fs::path folder = is_device ? fs::temp_directory_path(error) / "colmap-vcarve" : out;
+    folder += fmt::format(".tiles-{}", ::getpid());
+    return folder;
 }
 
-std::optional<Similarity> transform_of(const std::string& text, const ModelArguments& model)
+Json input_json(const RunInput& input, const ReadModel& model)
+{
+    const auto& [found, dense, scan, notes, rays] = input.found;
+    constexpr std::array kFormats = {"binary", "text", "transforms"};
+    Json json = {{"model", input.path.string()},
+                 {"folder", found.folder.string()},
+                 {"format", kFormats.at(static_cast<std::size_t>(found.format))},
+                 {"cloud", nullptr},
+                 {"points", model.read.points},
+                 {"views", model.read.views},
+                 {"rays", model.read.rays}};
+    if (scan) json["cloud"] = scan->cloud.string();
+    if (scan && found.folder.empty()) {
+        json["folder"] = nullptr;
+        json["format"] = nullptr;
+    }
+    if (dense) json["cloud"] = dense->cloud.string();
+    return json;
+}
+
+std::optional<Similarity> transform_of(const std::string& text, const FoundModel& model)
 {
     if (text.empty()) return std::nullopt;
     double scale = 0.0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, scale);
     if (lower_case_end(text) == ".json") {
-        const FoundModel found = find_input(model.path, model.all_points()).model;
-        const bool has_poses = found.format == ModelFormat::transforms;
-        return read_nerfstudio_transform(text, has_poses ? found.folder : fs::path());
+        const bool has_poses = model.format == ModelFormat::transforms;
+        return read_nerfstudio_transform(text, has_poses ? model.folder : fs::path());
     }
     if (error == std::errc::invalid_argument || stop != end) return read_sim3(text);
     if (error != std::errc() || !(scale > 0.0) || !std::isfinite(scale)) {
@@ -153,55 +163,6 @@ std::optional<Similarity> transform_of(const std::string& text, const ModelArgum
             fmt::format("--transform takes a file or a scale above 0, not \"{}\"", text));
     }
     return Similarity{.scale = scale, .linear = scale * Eigen::Matrix3d::Identity()};
-}
-
-Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,
-                           const std::optional<Similarity>& transform)
-{
-    if (wanted.word == WordOrVector::kNoWord) return wanted.vector;
-    const bool automatic = static_cast<OffsetWord>(wanted.word) == OffsetWord::automatic;
-    if (!automatic) return Eigen::Vector3d::Zero();
-    if (!transform) return round_offset(model);
-    Scene moved;
-    moved.positions = model.positions;
-    moved.offset = model.offset;
-    move_positions(*transform, moved.positions, moved.offset);
-    return round_offset(moved);
-}
-
-Eigen::Vector3d up_for(const Scene& model, const WordOrVector& wanted,
-                       const std::optional<Similarity>& transform)
-{
-    if (wanted.word == WordOrVector::kNoWord) {
-        if (wanted.vector.stableNormalized().isZero())
-            throw UsageError("--up takes a direction, not 0,0,0");
-        return wanted.vector.stableNormalized();
-    }
-    const auto word = static_cast<UpWord>(wanted.word);
-    if (word == UpWord::none) return Eigen::Vector3d::Zero();
-    if (word == UpWord::z) return Eigen::Vector3d::UnitZ();
-    const Eigen::Vector3d up =
-        word == UpWord::back ? back_of(model).value_or(up_of(model)) : up_of(model);
-    return transform ? (transform->linear * up).normalized() : up;
-}
-
-Similarity turned_upright(const std::optional<Similarity>& transform, const Eigen::Vector3d& up)
-{
-    Similarity turned = transform.value_or(Similarity());
-    const auto turn = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
-    turned.linear = turn * turned.linear;
-    turned.translation = turn * turned.translation;
-    return turned;
-}
-
-TriMesh transformed(TriMesh mesh, const Similarity& to)
-{
-    move_positions(to, mesh.positions, mesh.offset);
-    const Eigen::Matrix3d rotation = to.linear / to.scale;
-    for (Eigen::Vector3f& normal : mesh.normals) {
-        normal = (rotation * normal.cast<double>()).stableNormalized().cast<float>();
-    }
-    return mesh;
 }
 
 } // namespace vcarve::cli

@@ -1,11 +1,13 @@
 #include "cli/mesh_arguments.h"
 
-#include "base/version.h"
+#include "base/text.h"
 #include "cli/run_record.h"
+#include "io/dense/visibility.h"
 #include "io/formats/mesh_file.h"
 #include "io/formats/textured_files.h"
 #include "options/declared.h"
 #include "page/page.h"
+#include "pipeline/scene_run.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -93,6 +95,13 @@ OptionList record_options(MeshArguments& arguments)
     constexpr const char* kStage = "Output";
     return {
         {kStage,
+         {.name = "keep-points",
+          .unit = "file",
+          .help = "Write the dense points to FILE.ply and their views to FILE.ply.vis, as COLMAP's "
+                  "stereo_fusion does.",
+          .level = OptionLevel::advanced},
+         &arguments.keep_points},
+        {kStage,
          {.name = "stats",
           .help = "Write options, counts, seconds and peak memory of every stage, and a check of "
                   "the mesh, as JSON.",
@@ -114,6 +123,28 @@ OptionList record_options(MeshArguments& arguments)
     };
 }
 
+/// Throws UsageError if an option needs --dense or --texture, or contradicts it.
+void check_photo_options(const MeshArguments& arguments, const ParsedArguments& given)
+{
+    const bool is_dense = arguments.options.dense.dense;
+    for (const char* const name : {"dense-size", "keep-points"}) {
+        if (given.has(name) && !is_dense) {
+            throw UsageError(fmt::format("--{} needs --dense", name));
+        }
+    }
+    if (is_dense && given.has("points")) {
+        throw UsageError("--dense and --points both supply dense points; remove one of them");
+    }
+    const fs::path& points = arguments.keep_points;
+    if (!points.empty() && lower_case_end(points) != ".ply") {
+        throw UsageError(fmt::format("cannot write {}: --keep-points needs .ply", points.string()));
+    }
+    if (given.has("texture-scale") && !arguments.options.texture.texture) {
+        throw UsageError("--texture-scale needs --texture");
+    }
+    if (arguments.options.texture.texture) require_texture_name(arguments.out);
+}
+
 void check_output(const fs::path& out, const OutputOptions& options)
 {
     // Folders are rejected later, with another message.
@@ -122,33 +153,6 @@ void check_output(const fs::path& out, const OutputOptions& options)
     require_mesh_name(out);
     if (options.ascii) require_ply(out, "--ascii");
     if (options.attributes) require_ply(out, "--attributes");
-}
-
-/// The options that affect the output of a given scene.
-OptionList counting_options(MeshArguments& arguments)
-{
-    OptionList options =
-        joined({options_of(arguments.options), options_of(arguments.output),
-                dense_options(arguments.dense), texture_options(arguments.texture)});
-    std::erase_if(options, [](const Option& option) {
-        const std::string& name = option.info.name;
-        return option.stage == kRunStage || name == "quiet" || name == "verbose" ||
-               name == "keep-points";
-    });
-    return options;
-}
-
-/// "max-hole=7"; "crop=FILE" for any file.
-std::string recorded(const Option& option)
-{
-    if (is_flag(option)) return option.info.name;
-    const std::string value = value_text(option);
-    const bool may_be_path = std::holds_alternative<std::filesystem::path*>(option.value) ||
-                             std::holds_alternative<RegionChoice*>(option.value) ||
-                             std::holds_alternative<std::string*>(option.value);
-    const bool is_path = may_be_path && std::ranges::count(option.info.words, value) == 0 &&
-                         value.find_first_not_of("0123456789.,+-e") != std::string::npos;
-    return option.info.name + "=" + (is_path ? "FILE" : value);
 }
 
 } // namespace
@@ -185,16 +189,7 @@ OptionList options_of(OutputOptions& output)
                   "dataparser_transforms.json.",
           .level = advanced},
          &output.transform},
-        {kStage,
-         {.name = "up",
-          .help =
-              "Set the up direction of .glb, which becomes y, and record it in the file. auto: up "
-              "in most cameras. back: opposite to the cameras' view, for cameras that look "
-              "straight down. z, or x,y,z: a direction in output coordinates. none: keep y.",
-          .min = -kUnlimited,
-          .words = {"auto", "back", "z", "none"},
-          .level = advanced},
-         &output.up},
+        up_option(output.up),
         {kStage,
          {.name = "upright",
           .help = "Rotate coordinates after --transform so that the direction of --up becomes z, "
@@ -210,9 +205,8 @@ OptionList options_of(OutputOptions& output)
 
 OptionList options_of(MeshArguments& arguments)
 {
-    return joined({options_of(arguments.model), dense_options(arguments.dense),
-                   options_of(arguments.options), work_options(arguments),
-                   options_of(arguments.output), texture_options(arguments.texture),
+    return joined({options_of(arguments.model), options_of(arguments.options),
+                   work_options(arguments), options_of(arguments.output),
                    preview_options(arguments.preview), record_options(arguments),
                    options_of(arguments.help)});
 }
@@ -220,12 +214,12 @@ OptionList options_of(MeshArguments& arguments)
 std::vector<Output> outputs_of(const MeshArguments& arguments)
 {
     std::vector<Output> outputs = {{"the mesh", arguments.out}};
-    if (arguments.texture.texture) {
+    if (arguments.options.texture.texture) {
         std::ranges::move(texture_outputs(arguments.out), std::back_inserter(outputs));
     }
-    if (!arguments.dense.keep_points.empty()) {
-        outputs.push_back({"--keep-points", arguments.dense.keep_points});
-        outputs.push_back({"--keep-points", visibility_beside(arguments.dense.keep_points)});
+    if (!arguments.keep_points.empty()) {
+        outputs.push_back({"--keep-points", arguments.keep_points});
+        outputs.push_back({"--keep-points", visibility_beside(arguments.keep_points)});
     }
     if (!arguments.preview.out.empty()) outputs.push_back({"--preview", arguments.preview.out});
     if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
@@ -242,8 +236,9 @@ const char* option_of_one_piece(const MeshArguments& arguments)
         {options.surface.closed, "--closed"},
         {options.refine.smooth.iterations > 0, "--smooth"},
         {options.refine.simplify.faces > 0, "--simplify"},
-        {arguments.texture.reads_images(), "--texture"},
-        {!arguments.texture.masks.empty(), "--masks"},
+        {options.texture.texture, "--texture"},
+        {!options.images.empty() && !options.dense.dense, "--images"},
+        {!options.masks.folder.empty(), "--masks"},
         {arguments.output.attributes, "--attributes"},
         {!arguments.report.empty(), "--report"}};
     const auto given = std::ranges::find_if(whole, [](const auto& each) { return each.first; });
@@ -260,12 +255,9 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     check_output(arguments.out, arguments.output);
     if (arguments.output.upright && arguments.output.up.word == static_cast<int>(UpWord::none))
         throw UsageError("--upright needs an up direction, but --up is none");
-    check_dense(arguments.dense, given);
-    if (arguments.dense.dense) arguments.model.points.points = "sparse";
-    if (arguments.dense.dense && !given.has("max-closing")) {
-        arguments.options.surface.rules.max_closing = kDenseClosing;
-    }
-    check_texture(arguments.texture, arguments.out, given);
+    check_photo_options(arguments, given);
+    if (arguments.options.dense.dense) arguments.model.points.points = "sparse";
+    arguments.options = resolved(arguments.options);
     check_preview(arguments.preview, given);
     if (const char* const name = option_of_one_piece(arguments);
         name != nullptr && arguments.tile_points > 0) {
@@ -280,23 +272,6 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.command = command_text("colmap-vcarve", given.typed);
     require_distinct(outputs_of(arguments));
     return arguments;
-}
-
-std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene,
-                                         std::size_t tile_points)
-{
-    std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program,
-                                         "input " + digest_text(scene)};
-    MeshArguments usual;
-    MeshArguments given = arguments;
-    const OptionList defaults = counting_options(usual);
-    const OptionList options = counting_options(given);
-    for (std::size_t i = 0; i < options.size(); ++i) {
-        if (value_text(options[i]) == value_text(defaults[i])) continue;
-        comments.push_back("option " + recorded(options[i]));
-    }
-    if (tile_points > 0) comments.push_back(fmt::format("option tile-points={}", tile_points));
-    return comments;
 }
 
 Manual mesh_manual()

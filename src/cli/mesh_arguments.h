@@ -1,10 +1,9 @@
 #pragma once
 
 #include "cli/command_line.h"
-#include "cli/dense_run.h"
 #include "cli/input_output.h"
 #include "cli/picture_output.h"
-#include "run/digest.h"
+#include "io/formats/output_frame.h"
 #include "vcarve/options.h"
 
 #include <filesystem>
@@ -30,16 +29,15 @@ struct OutputOptions {
 struct MeshArguments {
     ModelArguments model;
     std::filesystem::path out;
-    DenseArguments dense;
-    TextureArguments texture;
     PreviewArguments preview;
-    std::filesystem::path stats;  ///< empty if not written
-    std::filesystem::path report; ///< empty if not written
-    std::filesystem::path work;   ///< empty if no files are kept
-    bool keeps_work = false;      ///< keeps the files at the end
-    int tile_points = 0;          ///< maximum number of points of a tile; 0 if memory decides
-    bool checks = false;          ///< checks the mesh, also without --stats and --report
-    std::string command;          ///< as typed
+    std::filesystem::path stats;       ///< empty if not written
+    std::filesystem::path report;      ///< empty if not written
+    std::filesystem::path keep_points; ///< dense points; empty if not written
+    std::filesystem::path work;        ///< empty if no files are kept
+    bool keeps_work = false;           ///< keeps the files at the end
+    int tile_points = 0;               ///< maximum number of points of a tile; 0 if memory decides
+    bool checks = false;               ///< checks the mesh, also without --stats and --report
+    std::string command;               ///< as typed
     OutputOptions output;
     std::optional<Similarity> transform; ///< of --transform; set by the run
     Options options;
@@ -56,12 +54,6 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given);
 
 /// The first given option that a model in tiles does not support; null if there is none.
 const char* option_of_one_piece(const MeshArguments& arguments);
-
-/// The comments of the mesh file: the program, the digest of the scene, and options that affect the
-/// mesh and differ from the defaults, such as tiles. No paths, no threads: equal runs write equal
-/// files.
-std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene,
-                                         std::size_t tile_points = 0);
 
 /// The help of `colmap-vcarve MODEL OUT.ply`.
 Manual mesh_manual();

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -62,7 +63,7 @@ std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& optio
     if (*outcome.open >= kShown) {
         text =
             fmt::format("holes in {} of the visible surface (to close: {})", percent(*outcome.open),
-                        options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
+                        options.rules.max_closing != 0.0 ? "--max-closing 0" : "--closed");
     } else if (*outcome.open > 0.0) {
         text = "holes in less than 1 % of the visible surface";
     }
@@ -115,9 +116,9 @@ void propose_for_surface(const RunOutcome& outcome, const Options& options,
 
 } // namespace
 
-ReportParts make_report(const ReportSubject& shown, Log& log)
+ReportParts make_report(const ReportedRun& made, Log& log)
 {
-    const auto& [mesh, texture, removed, scene, depth] = shown;
+    const auto& [mesh, scene] = std::tie(made.mesh, made.scene);
     Stage stage(log, "report");
     ReportParts parts;
     parts.figures = surface_figures(mesh, face_supports(mesh, scene), scene);
@@ -125,10 +126,10 @@ ReportParts make_report(const ReportSubject& shown, Log& log)
     Json surface = packed_surface(mesh, scene, {}, stage);
     const auto faces = surface["faces"]["count"].get<std::int64_t>();
     // If the mesh was simplified for the page, its texture does not fit.
-    if (faces == parts.figures.faces) surface["texture"] = packed_texture(texture);
+    if (faces == parts.figures.faces) surface["texture"] = packed_texture(made.texture);
     parts.scene["surfaces"][0] = std::move(surface);
-    parts.scene["removed"] = packed_removed(removed);
-    parts.scene["depth"] = packed_depth(depth, scene);
+    parts.scene["removed"] = packed_removed(made.removed);
+    parts.scene["depth"] = packed_depth(made.depth, scene);
     stage.end({{"faces shown", faces}, {"of", parts.figures.faces}});
     return parts;
 }
@@ -175,9 +176,8 @@ void require_promised(const Json& surface, const std::string& command, const std
     }
 }
 
-RunOutcome outcome_of(const CountsOfStages& counts)
+void add_counts(const CountsOfStages& counts, RunOutcome& outcome)
 {
-    RunOutcome outcome;
     outcome.faces = count_of(counts, "write", "faces");
     outcome.boundary_edges =
         count_of(counts, "orient", "boundary edges") + count_of(counts, "join", "boundary edges");
@@ -193,7 +193,11 @@ RunOutcome outcome_of(const CountsOfStages& counts)
     outcome.high_error = count_of(counts, "filter", "high error");
     outcome.low_angle = count_of(counts, "filter", "low angle");
     outcome.stray = count_of(counts, "filter", "stray");
-    return outcome;
+}
+
+std::int64_t bare_faces(const CountsOfStages& counts)
+{
+    return count_of(counts, "texture", "faces without photograph");
 }
 
 std::string closing_line(const RunOutcome& outcome, const Options& options)

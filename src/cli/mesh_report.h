@@ -4,10 +4,8 @@
 #include "cli/console_log.h"
 #include "cli/run_record.h"
 #include "mesh/check.h"
-#include "model/photograph.h"
 #include "page/run_figures.h"
-#include "steps/6_surface/carve_surface.h"
-#include "stereo/depth_picture.h"
+#include "pipeline/scene_run.h"
 #include "vcarve/options.h"
 
 #include <cstdint>
@@ -23,17 +21,8 @@ struct ReportParts {
     Json scene; ///< drawn by the page
 };
 
-/// The subject of a report.
-struct ReportSubject {
-    const TriMesh& mesh;
-    const Texture& texture; ///< may be empty
-    const RemovedFaces& removed;
-    const Scene& scene;
-    const DepthPicture& depth; ///< may be empty
-};
-
 /// Measures and packs the data of a report, as the stage "report".
-ReportParts make_report(const ReportSubject& shown, Log& log);
+ReportParts make_report(const ReportedRun& made, Log& log);
 
 /// The record of a report: figures, and warnings.
 Json report_json(const ReportParts& parts, const Json& record);
@@ -70,7 +59,10 @@ struct RunOutcome {
 };
 
 /// Fills in the counts of the stages.
-RunOutcome outcome_of(const CountsOfStages& counts);
+void add_counts(const CountsOfStages& counts, RunOutcome& outcome);
+
+/// The number of faces without a photograph of a textured mesh.
+std::int64_t bare_faces(const CountsOfStages& counts);
 
 /// The result of a run: "wrote out.ply: 22,268 faces, holes in 4 % of the visible surface (to
 /// close: --max-closing 0)". At most two proposals follow, one per line, if the figures and the

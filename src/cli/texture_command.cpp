@@ -4,16 +4,19 @@
 #include "cli/commands.h"
 #include "cli/console_log.h"
 #include "cli/input_output.h"
+#include "cli/mesh_report.h"
 #include "cli/picture_output.h"
-#include "cli/run_memory.h"
+#include "io/formats/mesh_file.h"
 #include "io/formats/mesh_reader.h"
-#include "model/views.h"
+#include "io/input/read_model.h"
+#include "picture/eye.h"
+#include "pipeline/scene_run.h"
+#include "tiles/run_memory.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -32,7 +35,7 @@ struct TextureCommand {
     ModelArguments model;
     fs::path mesh;
     fs::path out;
-    TextureArguments texture;
+    Options options;
     PreviewArguments preview;
     ConsoleArguments console;
     HelpOptions help;
@@ -48,8 +51,20 @@ struct TextureCommand {
 
 OptionList options_of(TextureCommand& command)
 {
-    OptionList photographs = texture_options(command.texture);
-    std::erase_if(photographs, [](const Option& option) { return option.info.name == "texture"; });
+    OptionList photographs = vcarve::options_of(command.options);
+    std::erase_if(photographs, [](const Option& option) {
+        const std::string& name = option.info.name;
+        return name != "images" && name != "masks" && name != "texture-scale";
+    });
+    for (Option& option : photographs) {
+        std::string& help = option.info.help;
+        if (option.info.name == "images") {
+            help = "Use the photographs in FOLDER, not in `images` beside the model.";
+        } else if (option.info.name == "masks") {
+            help = "Exclude the black pixels of FOLDER/NAME.png from photograph NAME, as COLMAP "
+                   "does. They give no colors. No faces are removed.";
+        }
+    }
     return joined({photographs, preview_options(command.preview),
                    cli::options_of(command.console, "Print only errors."),
                    cli::options_of(command.help)});
@@ -59,7 +74,6 @@ TextureCommand read_command(const ParsedArguments& given)
 {
     TextureCommand command;
     read_options(given, options_of(command));
-    command.texture.texture = true;
     if (given.operands.size() != 3)
         throw UsageError(fmt::format("expected MODEL MESH OUT.glb, found {} arguments{}",
                                      given.operands.size(), kSeeTextureHelp));
@@ -68,7 +82,11 @@ TextureCommand read_command(const ParsedArguments& given)
     command.mesh = given.operands[1];
     command.out = given.operands[2];
     require_readable_mesh_name(command.mesh);
-    check_texture(command.texture, command.out, {});
+    require_mesh_name(command.out);
+    require_texture_name(command.out);
+    command.options.texture.texture = true;
+    command.options.threads = command.console.threads;
+    command.options.memory.limit = allowed_memory(command.options.memory).value_or(0);
     check_preview(command.preview, given);
     require_distinct(command.outputs());
     return command;
@@ -106,34 +124,28 @@ void run_texture(const ParsedArguments& given)
         tbb::global_control::max_allowed_parallelism,
         static_cast<std::size_t>(threads_or_all(command.console.threads)));
     ConsoleLog log(console_on_stderr(command.console.quiet, command.console.verbose));
-    check_images(command.model, command.texture, true, command.preview);
-    TriMesh mesh = read_mesh(command.mesh);
-    const ModelInput model = read_model_input(command.model, log);
-    Photographs photographs = photographs_of(command.texture, command.model.path, model.scene, log);
-    std::vector<Output> inputs = files_of(photographs);
-    if (const auto masks = masks_of(command.texture, model.scene, log)) {
-        photographs.masks = masks->of_view;
-        std::ranges::move(files_of(*masks), std::back_inserter(inputs));
-    }
-    inputs.push_back({"the mesh", command.mesh});
-    keep_inputs(command.outputs(), command.model, inputs);
     prepare_outputs(command.outputs());
+    const RunInput input = resolve_input(command.model.path, command.model.all_points(),
+                                         command.options, needs_view(command.preview), log);
+    keep_inputs(command.outputs(), input, {{"the mesh", command.mesh}});
+    if (needs_view(command.preview)) named_view(input.views, command.preview.view);
+    TriMesh mesh = read_mesh(command.mesh);
+    const Scene scene = read_found_model(input.found, log).scene;
     PreviewOutput preview(command.preview);
-    preview.set_scene(model.scene);
-    const std::int64_t most = allowed_memory(MemoryOptions()).value_or(0);
+    preview.set_scene(scene);
     const TexturedMesh made =
-        textured(std::move(mesh), model.scene, photographs, {command.texture, most}, log);
+        texture_mesh(scene, std::move(mesh), {command.options, input.images, log});
     {
         Stage stage(log, "write");
         write_mesh(command.out, made.mesh,
                    {.comments = {"made by colmap-vcarve " + versions().program},
                     .texture = &made.texture,
-                    .up = up_of(model.scene)});
+                    .up = made.up});
         stage.end({{"faces", made.mesh.faces.size()}, {"vertices", made.mesh.positions.size()}});
     }
     preview.add(command.out.filename().string(), made.mesh, made.texture, log);
     preview.write();
-    const auto bare = std::ranges::count(made.view_of_face, -1);
+    const auto bare = bare_faces(log.counts());
     log.conclude(fmt::format("wrote {}: {} faces, {} of them shown by no photograph",
                              command.out.string(), grouped_digits(size_of(made.mesh.faces.size())),
                              grouped_digits(bare)));

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "vcarve/texture.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace vcarve {
 
@@ -14,14 +14,6 @@ namespace vcarve {
 struct PhotographSize {
     int width_px = 0;
     int height_px = 0;
-};
-
-/// A photograph or another image: rows from the top, three bytes per pixel, red first.
-struct Photograph {
-    int width_px = 0;
-    int height_px = 0;
-    std::vector<std::uint8_t> rgb;
-    std::vector<std::uint8_t> alpha = {}; ///< per pixel, 0 if transparent; empty if none is
 };
 
 /// The color at a position of an image, each channel from 0 to 255. Interpolates bilinearly between
@@ -47,16 +39,5 @@ inline Eigen::Array3f between_pixels(const Photograph& image, const Eigen::Vecto
     const Eigen::Array3f above = mixed(upper);
     return above + below * (mixed(lower) - above);
 }
-
-/// The images that cover a surface, and the position of each face in them.
-struct Texture {
-    std::vector<Photograph> pages;
-    std::vector<std::uint32_t> page_of_face; ///< parallel to the faces of the mesh
-    /// The positions of each face's corners in its page: (0, 0) is the upper left corner of the
-    /// page, (1, 1) the lower right corner.
-    std::vector<std::array<Eigen::Vector2f, 3>> places;
-
-    bool is_empty() const { return pages.empty(); }
-};
 
 } // namespace vcarve

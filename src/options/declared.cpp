@@ -22,6 +22,53 @@ Option for_library(const char* stage, OptionInfo info, OptionValue value, double
     return {stage, std::move(info), std::move(value)};
 }
 
+OptionList photo_options(Options& options)
+{
+    return {
+        {kPhotoStage,
+         {.name = "dense",
+          .help = "Compute dense points from photographs. The photographs are in "
+                  "--images, or in the folder `images` beside the model."},
+         &options.dense.dense},
+        {kPhotoStage,
+         {.name = "dense-size",
+          .unit = "px",
+          .help = "Scale the longest side of photographs to N pixels for matching. Depth is "
+                  "measured at every second pixel; time grows with the square of N.",
+          .min = 100,
+          .max = 10000,
+          .level = advanced},
+         &options.dense.size_px},
+        {kPhotoStage,
+         {.name = "texture",
+          .help = "Write a texture made of the photographs. They are in --images, or in the folder "
+                  "`images` beside the model. The texture is in OUT.glb, or in JPEG files beside "
+                  "OUT.obj or OUT.ply."},
+         &options.texture.texture},
+        {kPhotoStage,
+         {.name = "texture-scale",
+          .help = "Scale the texture to N texels per pixel of the photographs, along a side.",
+          .min = 0.01,
+          .max = 4.0,
+          .level = advanced},
+         &options.texture.scale},
+        {kPhotoStage,
+         {.name = "images",
+          .unit = "folder",
+          .help = "Use the photographs in FOLDER. Vertices get colors that the photographs agree "
+                  "on, instead of single pixels'."},
+         &options.images},
+        {kPhotoStage,
+         {.name = "masks",
+          .unit = "folder",
+          .help = "Exclude the black pixels of FOLDER/NAME.png from photograph NAME, as COLMAP "
+                  "does. They give neither colors nor dense points, and faces that most views see "
+                  "only in such pixels are removed.",
+          .level = advanced},
+         &options.masks.folder},
+    };
+}
+
 OptionList filter_options(FilterOptions& points)
 {
     return {
@@ -193,8 +240,11 @@ OptionList surface_options(SurfaceOptions& surface)
           .unit = "x extent",
           .help = "Drop long, unseen faces. A face is long if it has an edge above N times the "
                   "diameter of the region of interest. It is dropped if views see little of it, or "
-                  "if it bends away from the surface; 0 disables, so large faces close most gaps.",
-          .max = 1.0},
+                  "if it bends away from the surface; 0 disables, so large faces close most gaps. "
+                  "auto: 0.115, or 0.02 with --dense.",
+          .max = 1.0,
+          .words = {"auto"},
+          .word_value = FaceRules::kAutoClosing},
          &rules.max_closing},
         for_library(kSurface,
                     {"rim-closing", "x closing edge",
@@ -331,9 +381,10 @@ OptionList options_of(PointsArguments& arguments)
 OptionList options_of(Options& options)
 {
     LabelOptions& labels = options.labels;
-    return joined({filter_options(options.points), added_point_options(options.added_points),
-                   cloud_options(options), method_options(labels), trace_options(labels.trace),
-                   cut_options(labels), surface_options(options.surface), cleanup_options(options),
+    return joined({photo_options(options), filter_options(options.points),
+                   added_point_options(options.added_points), cloud_options(options),
+                   method_options(labels), trace_options(labels.trace), cut_options(labels),
+                   surface_options(options.surface), cleanup_options(options),
                    run_options(options)});
 }
 

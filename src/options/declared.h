@@ -10,6 +10,9 @@ namespace vcarve {
 /// Heading of options that do not affect the result: threads, memory.
 inline constexpr const char* kRunStage = "Run";
 
+/// Heading of the photographs and what is made of them.
+inline constexpr const char* kPhotoStage = "Photograph";
+
 /// PointsOptions as typed on the command line.
 struct PointsArguments {
     PointsOptions points; ///< all but the scanner

@@ -2,6 +2,7 @@
 
 #include "base/statistics.h"
 #include "geometry/triangle.h"
+#include "io/images/calibrated_photo.h"
 #include "io/images/encode_image.h"
 #include "mesh/vertices.h"
 #include "model/camera.h"
@@ -12,7 +13,6 @@
 #include "page/pack.h"
 #include "picture/eye.h"
 #include "steps/4_visibility/face_visibility.h"
-#include "texture/calibrated_photo.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,10 +2,10 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
+#include "mesh/first_faces.h"
 #include "model/colors.h"
 #include "model/photograph.h"
 #include "picture/eye.h"
-#include "picture/first_faces.h"
 
 #include <array>
 #include <optional>

@@ -28,14 +28,15 @@ std::vector<StageMemory> memory_of(const Needs& needs)
     std::vector<StageMemory> stages;
     for (const RunStage& stage : all_stages()) {
         if (stage.bytes == nullptr || !stage.applies(needs)) continue;
-        stages.push_back({stage.name, rounded(program + stage.bytes(needs))});
+        stages.push_back(
+            {stage.name, rounded(program + stage.bytes(needs)), stage.part == Part::dense});
     }
     return stages;
 }
 
-std::int64_t peak_of(const Needs& needs)
+StageMemory peak_of(const Needs& needs)
 {
-    return std::ranges::max(memory_of(needs), {}, &StageMemory::bytes).bytes;
+    return std::ranges::max(memory_of(needs), {}, &StageMemory::bytes);
 }
 
 } // namespace
@@ -56,13 +57,20 @@ std::vector<StageMemory> predicted_memory(const RunSize& size, int threads)
 
 std::int64_t predicted_peak(const RunSize& size, int threads)
 {
-    return peak_of(needs_of(size, threads));
+    return peak_of(needs_of(size, threads)).bytes;
 }
 
 void require_memory(const RunSize& size, int threads, std::int64_t most)
 {
-    const std::int64_t needed = predicted_peak(size, threads);
+    const auto [stage, needed, is_stereo] = peak_of(needs_of(size, threads));
     if (most <= 0 || needed <= most) return;
+    if (is_stereo) {
+        throw InputError(fmt::format("--dense needs about {} of memory for {} photographs, but the "
+                                     "limit is {}; use a smaller --dense-size, fewer --threads, or "
+                                     "a larger --max-memory",
+                                     byte_size_text(needed), size.photos.size(),
+                                     byte_size_text(most)));
+    }
     throw InputError(fmt::format("{} points with {} rays need about {} of memory, and "
                                  "--max-memory allows {}",
                                  size.read.points, size.read.rays, byte_size_text(needed),
@@ -78,7 +86,7 @@ std::size_t most_cells(const RunSize& size, int threads)
     const auto fits = [&](double cells_of_point) {
         Needs needs = needs_of(size, threads);
         needs.left.cells_of_point = cells_of_point;
-        return peak_of(needs) <= most;
+        return peak_of(needs).bytes <= most;
     };
     double of_point = 8; // with the points added around blocks
     for (double step = kMostOfPoint; step > 0.1; step /= 2) {

@@ -15,6 +15,7 @@ namespace vcarve {
 struct StageMemory {
     const char* stage; ///< name in the log
     std::int64_t bytes;
+    bool is_stereo = false; ///< a stage of Part::dense
 };
 
 /// Predicts the memory of each stage (stages.h) from the sizes of the arrays that are alive at the

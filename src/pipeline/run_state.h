@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/images/calibrated_photo.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/extent.h"
 #include "model/tet_mesh.h"
@@ -9,6 +10,9 @@
 #include "region/region.h"
 #include "steps/6_surface/carve_surface.h"
 #include "steps/7_refine/ray_guard.h"
+#include "stereo/dense_points.h"
+#include "stereo/depth_picture.h"
+#include "texture/texture_mesh.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
@@ -53,6 +57,16 @@ struct RunState {
     std::size_t first_filled = 0; ///< faces of the mesh from here on fill holes
     std::optional<RayGuard> guard{};
     TriMesh surface{};
+
+    const RunImages* images = nullptr;     ///< photographs and masks; null if the run reads none
+    KeepDepthMap keep_depth{};             ///< keeps depth maps in files, if any
+    std::vector<CalibratedPhoto> photos{}; ///< usable photographs, in the frame of the surface
+    DenseStereo stereo{};
+    Scene dense{}; ///< the points of Part::dense
+    DepthPicture depth{};
+    MeshPhotos shown{};
+    Texture texture{};
+
     std::vector<std::string> notes{}; ///< logged when the stage ends
 
     const Options& options() const { return size.options; }

@@ -3,11 +3,14 @@
 #include "model/tet_mesh.h"
 #include "steps/1_points/thin.h"
 #include "steps/3_cells/triangulate.h"
+#include "stereo/dense_points.h"
+#include "texture/texture_mesh.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 namespace vcarve {
 
@@ -53,6 +56,28 @@ double merging_parts(const Needs& needs)
                     kLeftOfParts * merging(needs.left) + needs.left.scene());
 }
 
+/// Pixels of all photographs, and of the largest.
+std::pair<double, double> pixels_of(const std::vector<PhotographSize>& photos)
+{
+    double all = 0.0;
+    double largest = 0.0;
+    for (const PhotographSize& photo : photos) {
+        const double pixels = static_cast<double>(photo.width_px) * photo.height_px;
+        all += pixels;
+        largest = std::max(largest, pixels);
+    }
+    return {all, largest};
+}
+
+/// The scene, the mesh with vertices, normals and colors, and `face` bytes per face.
+double mesh_with(const Sizes& n, double face)
+{
+    constexpr double kMeshFace = 12 + 39 / 2.0;
+    return n.scene() + n.faces() * (kMeshFace + face);
+}
+
+constexpr double kTreeFace = 150; ///< of FirstFaces
+
 /// CGAL's triangulation of all points.
 double cgal(const Sizes& n)
 {
@@ -87,7 +112,10 @@ Needs needs_of(const RunSize& size, int threads)
             .threads = static_cast<double>(threads),
             .is_dense = size.read.is_dense,
             .in_parts = size.in_parts,
-            .is_tile = size.is_tile};
+            .is_tile = size.is_tile,
+            .photos = size.photos,
+            .measures_dense = size.measures_dense,
+            .has_report = size.has_report};
 }
 
 /// At most 24 neighbors of each point, normals, variances, and positions before and after.
@@ -205,6 +233,54 @@ double adjusting(const Needs& needs)
     constexpr double kFace = 80;
     constexpr double kVertex = 250;
     return n.scene() + n.faces() * kFace + n.points * kVertex;
+}
+
+/// The sparse surface with the tree of its faces, the working images and the depth maps.
+double measuring_depth(const Needs& needs)
+{
+    return mesh_with(needs.left, kTreeFace) +
+           stereo_bytes(needs.photos, needs.options.dense, needs.threads);
+}
+
+/// A tree, the votes of the faces, and one mask per thread; or the half-edges of the kept faces.
+double masking(const Needs& needs)
+{
+    constexpr double kHalfEdges = 165;
+    const double masks = 3.0 * needs.threads * pixels_of(needs.photos).second;
+    return mesh_with(needs.left, std::max(kTreeFace + 8, kHalfEdges)) + masks;
+}
+
+/// A tree, and the photographs of the faces.
+double finding_photos(const Needs& needs)
+{
+    return mesh_with(needs.left, kTreeFace + sizeof(PhotosOfFace));
+}
+
+/// The photographs and colors of the faces, and the photographs in memory with their pyramids.
+double coloring(const Needs& needs)
+{
+    constexpr double kFace = sizeof(PhotosOfFace) + sizeof(FaceColors::value_type);
+    const TextureLimits limits = texture_limits(needs.options, needs.photos);
+    return mesh_with(needs.left, kFace) + static_cast<double>(limits.photos_at_a_time) *
+                                              kPhotoPixelBytes * pixels_of(needs.photos).second;
+}
+
+/// The same, and the pages: the faces show half of the pixels, and charts leave room between them.
+double painting(const Needs& needs)
+{
+    constexpr double kTexelsOfPixel = 0.8;
+    const TextureLimits limits = texture_limits(needs.options, needs.photos);
+    const double scale_sq = limits.scale * limits.scale;
+    return coloring(needs) +
+           kTexelBytes * std::min(static_cast<double>(limits.most_texels),
+                                  kTexelsOfPixel * scale_sq * pixels_of(needs.photos).first);
+}
+
+/// The mesh and the scene as numbers and as text of the page.
+double reporting(const Needs& needs)
+{
+    constexpr double kFace = 120;
+    return 2.0 * mesh_with(needs.left, kFace);
 }
 
 } // namespace vcarve

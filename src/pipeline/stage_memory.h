@@ -1,7 +1,10 @@
 #pragma once
 
+#include "model/photograph.h"
 #include "model/scene_check.h"
 #include "vcarve/options.h"
+
+#include <vector>
 
 namespace vcarve {
 
@@ -11,7 +14,10 @@ struct RunSize {
     SceneSize thinned;
     bool in_parts = false; ///< points are merged while they are read, so memory never holds all
     Options options = {};
-    bool is_tile = false; ///< the scene is a part of a large model (tiles/)
+    bool is_tile = false;                    ///< the scene is a part of a large model (tiles/)
+    std::vector<PhotographSize> photos = {}; ///< sizes of the photographs that the run reads
+    bool measures_dense = false;             ///< the run makes a sparse surface and depth maps
+    bool has_report = false;
 };
 
 /// Counts of a model. They are doubles, so that products do not overflow.
@@ -41,6 +47,9 @@ struct Needs {
     bool is_dense;
     bool in_parts;
     bool is_tile;
+    const std::vector<PhotographSize>& photos;
+    bool measures_dense;
+    bool has_report;
 };
 
 /// `size` must outlive the result.
@@ -60,5 +69,11 @@ double carving(const Needs& n);
 double extracting(const Needs& n);
 double cleaning(const Needs& n);
 double adjusting(const Needs& n);
+double measuring_depth(const Needs& n);
+double masking(const Needs& n);
+double finding_photos(const Needs& n);
+double coloring(const Needs& n);
+double painting(const Needs& n);
+double reporting(const Needs& n);
 
 } // namespace vcarve

@@ -107,6 +107,38 @@ bool changes_mesh(const Needs& n)
     return smooths(n) || simplifies(n);
 }
 
+bool measures_dense(const Needs& n)
+{
+    return n.measures_dense;
+}
+
+/// Whether the surface that the run ends with is in memory as a whole.
+bool ends_whole(const Needs& n)
+{
+    return !n.measures_dense && !n.is_tile;
+}
+
+bool has_masks(const Needs& n)
+{
+    return ends_whole(n) && !n.options.masks.folder.empty();
+}
+
+/// With photographs, vertices get their colors.
+bool colors_mesh(const Needs& n)
+{
+    return ends_whole(n) && (n.options.texture.texture || !n.options.images.empty());
+}
+
+bool paints_texture(const Needs& n)
+{
+    return ends_whole(n) && n.options.texture.texture;
+}
+
+bool has_report(const Needs& n)
+{
+    return ends_whole(n) && n.has_report;
+}
+
 using enum Part;
 namespace run = stage_runs;
 
@@ -137,7 +169,17 @@ constexpr RunStage kStages[] = {
     {"smooth", refinement, smooths, run::smooth},
     {"simplify", refinement, simplifies, run::simplify},
     {"orient", refinement, always, run::orient},
+    // A run with dense points makes the sparse surface with the stages above. Then it measures
+    // dense points, and makes their surface with the same stages, from "merge" on.
+    {"undistort", dense, measures_dense, run::undistort, measuring_depth},
+    {"depth", dense, measures_dense, run::match, measuring_depth},
+    {"fuse", dense, measures_dense, run::fuse, measuring_depth},
+    {"masks", masks, has_masks, run::remove_masked, masking},
+    {"photos", texture, colors_mesh, run::find_photos, finding_photos},
+    {"colors", texture, colors_mesh, run::color, coloring},
+    {"texture", texture, paints_texture, run::paint, painting},
     {"write", output, always, nullptr},
+    {"report", output, has_report, nullptr, reporting},
 };
 
 } // namespace

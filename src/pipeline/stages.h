@@ -11,7 +11,19 @@ namespace vcarve {
 struct RunState;
 
 /// The parts of a run.
-enum class Part { input, plan, points, cells, rays, surface, refinement, output };
+enum class Part {
+    input,
+    plan,
+    points,
+    cells,
+    rays,
+    surface,
+    refinement,
+    dense, ///< dense points, measured with the sparse surface
+    masks,
+    texture,
+    output
+};
 
 /// The description of a stage of a run.
 struct RunStage {
@@ -55,6 +67,13 @@ Counts guard_rays(RunState& run, const Progress& progress);
 Counts smooth(RunState& run, const Progress& progress);
 Counts simplify(RunState& run, const Progress& progress);
 Counts orient(RunState& run, const Progress& progress);
+Counts undistort(RunState& run, const Progress& progress); ///< photo_stages.cpp, as the next ones
+Counts match(RunState& run, const Progress& progress);
+Counts fuse(RunState& run, const Progress& progress);
+Counts remove_masked(RunState& run, const Progress& progress);
+Counts find_photos(RunState& run, const Progress& progress);
+Counts color(RunState& run, const Progress& progress);
+Counts paint(RunState& run, const Progress& progress);
 
 } // namespace stage_runs
 

@@ -157,14 +157,65 @@ Job option_facts(Options options)
 {
     Job facts;
     for (const Option& option : options_of(options)) {
-        if (option.stage == kRunStage) continue;
+        if (option.stage == kRunStage || option.stage == kPhotoStage) continue;
         const std::string name = "--" + option.info.name;
         const auto* const* region = std::get_if<RegionChoice*>(&option.value);
         const bool is_file = region != nullptr && (*region)->kind == RegionChoice::Kind::file;
         facts.push_back(is_file ? file_fact(name, (*region)->file)
                                 : JobFact{name, value_text(option)});
     }
+    if (options.dense.dense) {
+        facts.push_back({"--dense-size", std::to_string(options.dense.size_px)});
+    }
     return facts;
+}
+
+Job image_facts(const std::string& kind, const Photographs& images, const Progress& progress)
+{
+    Job facts;
+    const auto all = static_cast<double>(images.of_view.size());
+    for (std::size_t view = 0; view < images.of_view.size(); ++view) {
+        progress.report(static_cast<double>(view), all);
+        const std::filesystem::path& file = images.of_view[view];
+        if (file.empty()) continue;
+        facts.push_back(file_fact(
+            fmt::format("{} {}", kind, file.lexically_relative(images.folder).string()), file));
+    }
+    return facts;
+}
+
+std::vector<std::string> comments_of(const Digest& scene, Options options)
+{
+    std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program,
+                                         "input " + digest_text(scene)};
+    Options usual;
+    const auto with_photos_last = [](OptionList list) {
+        std::ranges::stable_partition(
+            list, [](const Option& option) { return option.stage != kPhotoStage; });
+        return list;
+    };
+    const std::vector<std::string> changed =
+        changed_options(with_photos_last(options_of(options)), with_photos_last(options_of(usual)));
+    comments.insert(comments.end(), changed.begin(), changed.end());
+    return comments;
+}
+
+std::vector<std::string> changed_options(const OptionList& options, const OptionList& defaults)
+{
+    std::vector<std::string> changed;
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        const Option& option = options[i];
+        const std::string value = value_text(option);
+        if (option.stage == kRunStage || value == value_text(defaults[i])) continue;
+        const std::string name = "option " + option.info.name;
+        const bool may_be_path = std::holds_alternative<std::filesystem::path*>(option.value) ||
+                                 std::holds_alternative<RegionChoice*>(option.value) ||
+                                 std::holds_alternative<std::string*>(option.value);
+        const bool is_path = may_be_path && std::ranges::count(option.info.words, value) == 0 &&
+                             value.find_first_not_of("0123456789.,+-e") != std::string::npos;
+        changed.push_back(is_flag(option) ? name : name + "=" + (is_path ? "FILE" : value));
+    }
+    return changed;
 }
 
 } // namespace vcarve

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "io/images/find_photographs.h"
 #include "io/input/find_input.h"
+#include "options/option.h"
 #include "run/digest.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
@@ -46,8 +48,18 @@ JobFact file_fact(const std::string& name, const std::filesystem::path& path,
 /// digest_of_file().
 Job input_facts(const FoundInput& input, const Progress& progress = {});
 
-/// All options except those under the heading "Run", which do not change the result. For a
-/// region's file, its content counts.
+/// The content of photographs or masks. Cost: reads all files.
+Job image_facts(const std::string& kind, const Photographs& images, const Progress& progress = {});
+
+/// All options except those under the headings "Run" and "Photograph", which do not change what is
+/// kept in files, and the size of depth maps with --dense. For a region's file, its content counts.
 Job option_facts(Options options);
+
+/// The comments of the mesh file: the program, the digest of the scene, and options that affect the
+/// mesh and differ from the defaults. No paths, no threads: equal runs write equal files.
+std::vector<std::string> comments_of(const Digest& scene, Options options);
+/// "option max-hole=7" for each option with another value than in `defaults`; "option crop=FILE"
+/// for any file. `options` has the same options.
+std::vector<std::string> changed_options(const OptionList& options, const OptionList& defaults);
 
 } // namespace vcarve

@@ -253,10 +253,13 @@ void WorkFolder::begin(const Job& job)
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     is_resumed_ = leads() && holds_stages();
+    std::error_code error;         // a missing file is damaged
     if (leads() && !is_resumed_) { // nothing to resume or to lose
         write_job(job);
+        began_ = fs::last_write_time(path, error);
         return;
     }
+    began_ = fs::last_write_time(path, error);
     const std::string lines = job_lines(path, text_of(path));
     if (lines == job_text(job)) return;
     throw InputError(fmt::format("the work folder {} belongs to another run: {}; {}",

@@ -59,6 +59,8 @@ class WorkFolder {
     bool is_over() const;
 
     const std::filesystem::path& path() const { return folder_; }
+    /// The time when the job began, also if other processes began it.
+    std::filesystem::file_time_type began() const { return began_; }
     /// Whether the folder had stages of an earlier run when the job began.
     bool is_resumed() const { return is_resumed_; }
     bool has(std::string_view stage) const;
@@ -88,6 +90,7 @@ class WorkFolder {
 
     std::filesystem::path folder_;
     bool is_resumed_ = false;
+    std::filesystem::file_time_type began_;
     FileLock lock_; ///< held if this process leads
     Digest job_{};  ///< set by begin()
 };

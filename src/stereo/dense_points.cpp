@@ -1,20 +1,14 @@
 #include "stereo/dense_points.h"
 
 #include "base/parallel.h"
-#include "base/progress.h"
-#include "io/images/find_photographs.h"
+#include "mesh/first_faces.h"
 #include "mesh/vertices.h"
-#include "picture/first_faces.h"
 #include "stereo/choose_sources.h"
 #include "stereo/filter_depth.h"
-#include "stereo/fuse.h"
-#include "stereo/patch_match.h"
-#include "stereo/stereo_view.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <string>
 
 namespace vcarve {
 
@@ -91,25 +85,21 @@ DepthPrior prior_of(const StereoView& view, std::vector<float> depths, const Sur
 /// Matches views with their neighbors.
 class ViewMatcher {
   public:
-    ViewMatcher(const Reconstruction& sparse, const std::vector<StereoView>& views)
-        : views_(views),
-          neighbors_(choose_sources(sparse.scene, views, kNeighbors)),
-          depths_(depths_of_points(sparse.scene)),
-          surface_(sparse.mesh)
+    /// `stereo` has views and neighbors.
+    ViewMatcher(const Scene& sparse, const TriMesh& surface, const DenseStereo& stereo)
+        : stereo_(stereo), depths_(depths_of_points(sparse)), surface_(surface)
     {
     }
 
-    const std::vector<std::vector<std::uint32_t>>& neighbors() const { return neighbors_; }
-
     DepthMap match(std::size_t number) const
     {
-        const StereoView& view = views_[number];
-        const auto& neighbors = neighbors_[number];
+        const StereoView& view = stereo_.views[number];
+        const auto& neighbors = stereo_.neighbors[number];
         const std::vector<float>& depths = depths_[view.view];
         if (neighbors.size() < kFewestSources || depths.empty()) return empty_depth_map(view.image);
         std::vector<const StereoView*> sources;
         for (std::size_t i = 0; i < std::min(neighbors.size(), kSources); ++i) {
-            sources.push_back(&views_[neighbors[i]]);
+            sources.push_back(&stereo_.views[neighbors[i]]);
         }
         const DepthPrior prior = prior_of(view, depths, surface_);
         DepthMap map = match_view(view, sources, prior);
@@ -119,21 +109,51 @@ class ViewMatcher {
     }
 
   private:
-    const std::vector<StereoView>& views_;
-    std::vector<std::vector<std::uint32_t>> neighbors_;
+    const DenseStereo& stereo_;
     std::vector<std::vector<float>> depths_; ///< depths of the points that each view sees
     SurfaceDepth surface_;
 };
 
-Counts counts_of(const std::vector<DepthMap>& maps)
+} // namespace
+
+double stereo_bytes(std::span<const PhotographSize> photos, const DenseOptions& options,
+                    double threads)
 {
-    std::int64_t measured = 0;
-    std::int64_t pixels = 0;
-    for (const DepthMap& map : maps) {
-        measured += num_measured(map);
-        pixels += size_of(map.planes.size());
+    constexpr double kViewBytes = sizeof(float) + (sizeof(PixelPlane) + sizeof(float) + 4) / 4.0;
+    constexpr double kMatchBytes = 6 * sizeof(float) * 4.0 / 3.0; // pyramids
+    constexpr double kPhotographBytes = 2 * 3 * 4.0 / 3.0;        // during decoding
+    double views = 0.0;
+    double largest = 0.0;
+    double largest_photo = 0.0;
+    for (const PhotographSize& photo : photos) {
+        const double pixels = static_cast<double>(photo.width_px) * photo.height_px;
+        const double scale = pixels > 0.0 ? working_scale(photo, options.size_px) : 0.0;
+        views += kViewBytes * scale * scale * pixels;
+        largest = std::max(largest, scale * scale * pixels);
+        largest_photo = std::max(largest_photo, pixels);
     }
-    return {{"depth maps", size_of(maps.size())}, {"pixels measured", measured}, {"of", pixels}};
+    return views + threads * std::max(kMatchBytes * largest, kPhotographBytes * largest_photo);
+}
+
+std::vector<StereoView> undistort_photos(const std::vector<CalibratedPhoto>& photos,
+                                         const DenseOptions& options, const Progress& progress)
+{
+    std::vector<StereoView> views(photos.size());
+    parallel_for(
+        photos.size(), progress,
+        [&](std::size_t i) { views[i] = stereo_view(photos[i], options.size_px); }, 1);
+    return views;
+}
+
+void match_views(const Scene& sparse, const TriMesh& surface, const KeepDepthMap& keep,
+                 DenseStereo& stereo, const Progress& progress)
+{
+    stereo.maps.resize(stereo.views.size());
+    stereo.neighbors = choose_sources(sparse, stereo.views, kNeighbors);
+    const ViewMatcher matcher(sparse, surface, stereo);
+    parallel_for(
+        stereo.views.size(), progress,
+        [&](std::size_t i) { stereo.maps[i] = keep(i, [&] { return matcher.match(i); }); }, 1);
 }
 
 void add_measured(const Scene& sparse, Scene& dense)
@@ -147,62 +167,6 @@ void add_measured(const Scene& sparse, Scene& dense)
         dense.point_ids.push_back(dense.point_ids.size());
         dense.tracks.push_back(sparse.tracks[point]);
     }
-}
-
-} // namespace
-
-std::int64_t predicted_stereo_memory(const std::vector<CalibratedPhoto>& photos,
-                                     const StereoOptions& options, std::size_t threads)
-{
-    constexpr double kViewBytes = sizeof(float) + (sizeof(PixelPlane) + sizeof(float) + 4) / 4.0;
-    constexpr double kMatchBytes = 6 * sizeof(float) * 4.0 / 3.0; // pyramids
-    constexpr double kPhotographBytes = 2 * 3 * 4.0 / 3.0;        // during decoding
-    double views = 0.0;
-    double largest = 0.0;
-    double largest_photo = 0.0;
-    for (const CalibratedPhoto& photo : photos) {
-        const double pixels = static_cast<double>(photo.size.width_px) * photo.size.height_px;
-        const double scale = working_scale(photo.size, options.size_px);
-        views += kViewBytes * scale * scale * pixels;
-        largest = std::max(largest, scale * scale * pixels);
-        largest_photo = std::max(largest_photo, pixels);
-    }
-    const double thread = std::max(kMatchBytes * largest, kPhotographBytes * largest_photo);
-    return static_cast<std::int64_t>(views + static_cast<double>(threads) * thread);
-}
-
-DensePoints dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
-                         const StereoOptions& options, const KeepDepthMap& keep, Log& log)
-{
-    std::vector<StereoView> views(photos.size());
-    {
-        Stage stage(log, "undistort");
-        parallel_for(
-            photos.size(), stage,
-            [&](std::size_t i) { views[i] = stereo_view(photos[i], options.size_px); }, 1);
-        std::vector<std::string> unreadable;
-        for (const StereoView& view : views) {
-            if (!view.problem.empty()) unreadable.push_back(view.problem);
-        }
-        note_unusable(unreadable, log);
-        stage.end({{"photographs", size_of(photos.size() - unreadable.size())}});
-    }
-    std::vector<DepthMap> maps(views.size());
-    Stage depth(log, "depth");
-    const ViewMatcher matcher(sparse, views);
-    parallel_for(
-        views.size(), depth,
-        [&](std::size_t i) { maps[i] = keep(i, [&] { return matcher.match(i); }); }, 1);
-    depth.end(counts_of(maps));
-    Stage stage(log, "fuse");
-    DensePoints dense;
-    dense.scene = fuse(sparse.scene, {views, maps, matcher.neighbors()}, stage);
-    stage.end({{"points", size_of(dense.scene.num_points())},
-               {"pixels fused", size_of(dense.scene.num_rays())}});
-    add_measured(sparse.scene, dense.scene);
-    const std::size_t shown = fullest(maps);
-    dense.picture = depth_picture(views[shown], maps[shown]);
-    return dense;
 }
 
 } // namespace vcarve

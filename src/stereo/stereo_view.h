@@ -1,7 +1,7 @@
 #pragma once
 
+#include "io/images/calibrated_photo.h"
 #include "model/photograph.h"
-#include "texture/calibrated_photo.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>

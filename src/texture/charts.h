@@ -1,6 +1,6 @@
 #pragma once
 
-#include "texture/calibrated_photo.h"
+#include "io/images/calibrated_photo.h"
 #include "texture/choose_photos.h"
 #include "vcarve/tri_mesh.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "texture/calibrated_photo.h"
+#include "io/images/calibrated_photo.h"
 #include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>

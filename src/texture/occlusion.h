@@ -1,7 +1,7 @@
 #pragma once
 
-#include "picture/first_faces.h"
-#include "texture/calibrated_photo.h"
+#include "io/images/calibrated_photo.h"
+#include "mesh/first_faces.h"
 #include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>

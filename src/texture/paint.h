@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "texture/calibrated_photo.h"
+#include "io/images/calibrated_photo.h"
 #include "texture/charts.h"
 #include "texture/face_colors.h"
 #include "texture/seams.h"

@@ -1,16 +1,10 @@
 #include "texture/texture_mesh.h"
 
-#include "base/progress.h"
-#include "model/camera.h"
 #include "texture/charts.h"
 #include "texture/choose_photos.h"
-#include "texture/face_colors.h"
-#include "texture/face_photos.h"
 #include "texture/paint.h"
 #include "texture/seams.h"
 #include "texture/vertex_colors.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +40,7 @@ std::vector<std::int32_t> views_of(const std::vector<std::uint32_t>& photo_of_fa
 
 /// Returns `scale`, or the largest scale that needs at most `most_texels`.
 double scale_for(const std::vector<PhotosOfFace>& photos_of_faces,
-                 const std::vector<std::uint32_t>& photo_of_face, const TextureOptions& options,
-                 Log& log)
+                 const std::vector<std::uint32_t>& photo_of_face, const TextureLimits& limits)
 {
     constexpr double kPacked = 1.6; // page texels per chart texel
     double texels = 0.0;
@@ -55,93 +48,63 @@ double scale_for(const std::vector<PhotosOfFace>& photos_of_faces,
         const int place = place_of(photos_of_faces[face], photo_of_face[face]);
         if (place >= 0) texels += kPacked * photos_of_faces[face].best[place].area_px2;
     }
-    const double finest =
-        std::sqrt(static_cast<double>(options.most_texels) / std::max(texels, 1.0));
-    if (options.scale <= finest) return options.scale;
-    log.note(fmt::format("to limit memory, the texture has only {:.2f} texels per photograph pixel "
-                         "(along a side)",
-                         finest));
-    return finest;
+    return std::min(limits.scale,
+                    std::sqrt(static_cast<double>(limits.most_texels) / std::max(texels, 1.0)));
 }
 
 } // namespace
 
-std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photographs& photographs,
-                                               const Eigen::Vector3d& mesh_offset)
+TextureLimits texture_limits(const Options& options, std::span<const PhotographSize> photos)
 {
-    std::vector<CalibratedPhoto> photos;
-    const std::vector<double> focals_px = mean_focals_px(scene.cameras);
-    for (std::uint32_t i = 0; i < scene.views.size(); ++i) {
-        const View& view = scene.views[i];
-        const Camera& camera = scene.cameras[view.camera];
-        if (photographs.of_view[i].empty() || !project(camera, Eigen::Vector3d::UnitZ()) ||
-            camera.width_px == 0 || camera.height_px == 0) {
-            continue;
-        }
-        CalibratedPhoto& photo = photos.emplace_back();
-        photo.file = photographs.of_view[i];
-        if (!photographs.masks.empty()) photo.mask = photographs.masks[i];
-        photo.size = photographs.sizes[i];
-        photo.view = i;
-        photo.pose = view;
-        photo.pose.center += scene.offset - mesh_offset;
-        photo.camera = camera;
-        photo.scale = {photo.size.width_px / static_cast<double>(camera.width_px),
-                       photo.size.height_px / static_cast<double>(camera.height_px)};
-        photo.focal_px = focals_px[view.camera] * photo.scale.mean();
+    TextureLimits limits = {.scale = options.texture.scale};
+    const auto most = static_cast<double>(options.memory.limit);
+    if (most <= 0.0) return limits;
+    limits.most_texels =
+        std::min(limits.most_texels, static_cast<std::size_t>(most / 4.0 / kTexelBytes));
+    double largest_px = 1.0;
+    for (const PhotographSize& photo : photos) {
+        largest_px = std::max(largest_px, static_cast<double>(photo.width_px) * photo.height_px);
     }
-    return photos;
+    const double fitting = std::floor(most / 2.0 / (kPhotoPixelBytes * largest_px));
+    limits.photos_at_a_time = static_cast<std::size_t>(
+        std::clamp(fitting, 1.0, static_cast<double>(limits.photos_at_a_time)));
+    return limits;
 }
 
-TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& photos,
-                          const TextureOptions& options, Log& log)
+ColoredVertices color_mesh(TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
+                           std::size_t photos_at_a_time, MeshPhotos& shown,
+                           const Progress& progress)
 {
-    TexturedMesh result;
-    std::vector<PhotosOfFace> photos_of_faces;
-    {
-        Stage stage(log, "photos");
-        photos_of_faces = find_photos_of_faces(mesh, photos, stage);
-        const auto seen = std::ranges::count_if(
-            photos_of_faces, [](const PhotosOfFace& found) { return found.count > 0; });
-        stage.end({{"photographs", size_of(photos.size())},
-                   {"faces", size_of(mesh.faces.size())},
-                   {"seen", seen}});
-    }
-    FaceColors colors;
-    Gains gains;
-    {
-        Stage stage(log, "colors");
-        ShownColors shown =
-            look_up_colors(mesh, photos, photos_of_faces, options.photos_at_a_time, stage);
-        colors = std::move(shown.colors);
-        note_unusable(shown.unreadable, log);
-        gains = find_gains(photos.size(), photos_of_faces, colors);
-        const std::size_t outliers = drop_outliers(gains, photos_of_faces, colors);
-        const std::size_t colored = color_vertices(photos_of_faces, colors, gains, mesh);
-        stage.end({{"vertices", size_of(colored)}, {"outliers", size_of(outliers)}});
-    }
-    if (options.only_colors) {
-        result.mesh = std::move(mesh);
-        return result;
-    }
-    Stage stage(log, "texture");
-    const Progress progress = stage;
+    ShownColors looked_up =
+        look_up_colors(mesh, photos, shown.of_faces, photos_at_a_time, progress);
+    shown.colors = std::move(looked_up.colors);
+    shown.problems = std::move(looked_up.unreadable);
+    shown.gains = find_gains(photos.size(), shown.of_faces, shown.colors);
+    const std::size_t outliers = drop_outliers(shown.gains, shown.of_faces, shown.colors);
+    return {color_vertices(shown.of_faces, shown.colors, shown.gains, mesh), outliers};
+}
+
+PaintedTexture paint_texture(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
+                             const MeshPhotos& shown, const TextureLimits& limits,
+                             const Progress& progress)
+{
+    PaintedTexture made;
+    const auto& [of_faces, colors, gains, problems] = shown;
     const FacesBeside beside = find_faces_beside(mesh);
     const std::vector<std::uint32_t> photo_of_face =
-        choose_photos(mesh, photos, photos_of_faces, beside, progress.part(0.0, 0.2));
-    const double scale = scale_for(photos_of_faces, photo_of_face, options, log);
+        choose_photos(mesh, photos, of_faces, beside, progress.part(0.0, 0.2));
+    made.scale = scale_for(of_faces, photo_of_face, limits);
     const Atlas atlas =
-        lay_out_charts(mesh, photos, photo_of_face, beside, {scale, options.most_page_px});
-    const CornerLevels levels = level_seams(mesh, photos_of_faces, colors, gains, photo_of_face);
-    auto blends = find_blends(mesh, photos_of_faces, photo_of_face, atlas, levels);
+        lay_out_charts(mesh, photos, photo_of_face, beside, {made.scale, limits.most_page_px});
+    const CornerLevels levels = level_seams(mesh, of_faces, colors, gains, photo_of_face);
+    auto blends = find_blends(mesh, of_faces, photo_of_face, atlas, levels);
     blends.resize(photos.size());
-    result.texture = texture_of(atlas, paint_pages({mesh, photos, photo_of_face, atlas, gains,
-                                                    levels, blends, options.photos_at_a_time},
-                                                   progress.part(0.3, 1.0)));
-    result.view_of_face = views_of(photo_of_face, photos);
-    result.mesh = std::move(mesh);
-    stage.end({{"charts", size_of(atlas.num_charts)}, {"pages", size_of(atlas.page_sizes.size())}});
-    return result;
+    made.texture = texture_of(atlas, paint_pages({mesh, photos, photo_of_face, atlas, gains, levels,
+                                                  blends, limits.photos_at_a_time},
+                                                 progress.part(0.3, 1.0)));
+    made.view_of_face = views_of(photo_of_face, photos);
+    made.charts = atlas.num_charts;
+    return made;
 }
 
 } // namespace vcarve

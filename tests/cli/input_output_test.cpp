@@ -1,4 +1,5 @@
 #include "cli/input_output.h"
+#include "io/formats/output_frame.h"
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/scenes.h"
@@ -36,7 +37,8 @@ class KeepInputs : public ::testing::Test {
     {
         const std::vector<Output> outputs = {{"--stats", folder / "new.json"}, {"the mesh", out}};
         const std::string said = refusal<UsageError>([&] {
-            keep_inputs(outputs, {{.points = options, .scanner = {}}, dense}, {});
+            const RunInput input = {.path = dense, .found = find_input(dense, options)};
+            keep_inputs(outputs, input, {});
         });
         return said == "no exception" ? "" : said;
     }
@@ -142,14 +144,13 @@ TEST(TransformOf, TransformsTheModelToTheFrameOfNerfstudio)
         folder.write("dataparser_transforms.json",
                      R"({"transform": [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]], "scale": 2})");
     write_ball_model(folder / "sparse/0", 20);
-    ModelArguments model;
-    model.path = folder / "sparse/0";
-    EXPECT_EQ(transform_of(file, model)->translation, Vector3d(2, 4, 6));
-    model.path = folder.write(
+    const FoundModel colmap = find_input(folder / "sparse/0", {}).model;
+    EXPECT_EQ(transform_of(file, colmap)->translation, Vector3d(2, 4, 6));
+    const std::string transforms = folder.write(
         "transforms.json",
         R"({"frames": [{}], "applied_transform": [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]})");
     folder.write("sparse_pc.ply", "ply\n");
-    EXPECT_EQ(transform_of(file, model)->translation, Vector3d(0, 2, 4));
+    EXPECT_EQ(transform_of(file, find_input(transforms, {}).model)->translation, Vector3d(0, 2, 4));
 }
 
 TEST(OffsetFor, RoundsTheOffsetAfterTheTransformation)
@@ -222,6 +223,12 @@ TEST(Transformed, RotatesNormalsWithoutScalingThem)
     EXPECT_EQ(moved.offset, Vector3d(1, 1, 41));
     EXPECT_EQ(moved.normals, (std::vector<Vector3f>{{0, 1, 0}, {0, 0, 1}, {0, 0, 0}}));
     EXPECT_EQ(moved.faces, mesh.faces);
+}
+
+TEST(FolderBeside, IsNotInTheFolderOfADevice)
+{
+    EXPECT_THAT(cli::folder_beside("a/out.ply").string(), MatchesRegex("a/out.ply.tiles-[0-9]+"));
+    EXPECT_NE(cli::folder_beside("/dev/null").parent_path(), "/dev");
 }
 
 } // namespace

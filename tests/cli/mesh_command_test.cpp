@@ -1,4 +1,4 @@
-#include "cli/mesh_arguments.h"
+#include "cli/mesh_output.h"
 #include "options/declared.h"
 #include "support/ball_model.h"
 #include "support/program.h"
@@ -15,7 +15,6 @@ namespace vcarve::mesh_command_test {
 namespace {
 
 using cli::MeshArguments;
-using cli::record_comments;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -245,10 +244,11 @@ TEST(Program, ReportsThatMemoryIsShort)
 }
 #endif
 
-TEST(RecordComments, ListRelevantOptionsThatDifferFromTheDefaults)
+TEST(CommentsOf, ListRelevantOptionsThatDifferFromTheDefaults)
 {
     MeshArguments arguments;
-    EXPECT_THAT(record_comments(arguments, {1, 2}),
+    const cli::OutputFrame frame = {std::nullopt, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    EXPECT_THAT(cli::comments_of({1, 2}, arguments, frame, 0),
                 ElementsAre(MatchesRegex("made by colmap-vcarve [0-9.]+.*"),
                             "input 01020000000000000000000000000000"));
     arguments.options.surface.closed = true;
@@ -257,25 +257,26 @@ TEST(RecordComments, ListRelevantOptionsThatDifferFromTheDefaults)
     arguments.options.memory.limit = 1 << 30;
     arguments.output.quiet = true;
     arguments.output.transform = "2.5";
-    arguments.texture.texture = true;
-    const auto told = record_comments(arguments, {});
-    EXPECT_THAT(
-        std::vector(told.begin() + 2, told.end()),
-        ElementsAre("option closed", "option smooth=2", "option transform=2.5", "option texture"));
+    arguments.output.offset.word = 1; // has no effect, because the offset is zero
+    arguments.options.texture.texture = true;
+    const auto comments = cli::comments_of({}, arguments, frame, 500);
+    EXPECT_THAT(std::vector(comments.begin() + 2, comments.end()),
+                ElementsAre("option closed", "option smooth=2", "option texture",
+                            "option transform=2.5", "option tile-points=500"));
 }
 
-TEST(RecordComments, ContainNoPaths)
+TEST(CommentsOf, ContainNoPaths)
 {
     MeshArguments arguments;
     arguments.options.crop.region = {.kind = RegionChoice::Kind::file, .file = "my house.ply"};
     arguments.output.transform = "2 to here.txt";
-    arguments.texture.images = "photos";
-    const auto told = record_comments(arguments, {});
-    EXPECT_THAT(std::vector(told.begin() + 2, told.end()),
-                ElementsAre("option crop=FILE", "option transform=FILE", "option images=FILE"));
+    arguments.options.images = "photos";
+    const auto comments = cli::comments_of({}, arguments, {}, 0);
+    EXPECT_THAT(std::vector(comments.begin() + 2, comments.end()),
+                ElementsAre("option crop=FILE", "option images=FILE", "option transform=FILE"));
 }
 
-TEST(RecordComments, AreTheSameForTextAndBinaryModels)
+TEST(CommentsOf, AreTheSameForTextAndBinaryModels)
 {
     const TemporaryFolder folder;
     const auto scene = fixtures_folder() / "scene";

@@ -310,17 +310,18 @@ TEST(ClosingLine, NamesThePageAfterTheMesh)
 
 TEST(RunOutcome, CollectsCountsOfTheStages)
 {
-    const RunOutcome outcome =
-        outcome_of({{"filter",
-                     {{"points", 70},
-                      {"of", 100},
-                      {"few views", 10},
-                      {"high error", 15},
-                      {"low angle", 5},
-                      {"stray", 3}}},
-                    {"open", {{"rays of the views", 40}, {"of", 4000}}},
-                    {"orient", {{"rays on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
-                    {"write", {{"faces", 99}, {"vertices", 50}}}});
+    RunOutcome outcome;
+    add_counts({{"filter",
+                 {{"points", 70},
+                  {"of", 100},
+                  {"few views", 10},
+                  {"high error", 15},
+                  {"low angle", 5},
+                  {"stray", 3}}},
+                {"open", {{"rays of the views", 40}, {"of", 4000}}},
+                {"orient", {{"rays on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
+                {"write", {{"faces", 99}, {"vertices", 50}}}},
+               outcome);
     EXPECT_EQ(outcome.points, 70);
     EXPECT_EQ(outcome.points_before, 100);
     EXPECT_EQ(outcome.few_views, 10);
@@ -330,7 +331,9 @@ TEST(RunOutcome, CollectsCountsOfTheStages)
     EXPECT_EQ(outcome.open, 0.01);
     EXPECT_EQ(outcome.boundary_edges, 12);
     EXPECT_EQ(outcome.faces, 99);
-    EXPECT_FALSE(outcome_of({}).open);
+    RunOutcome unknown;
+    add_counts({}, unknown);
+    EXPECT_FALSE(unknown.open);
 }
 
 } // namespace

@@ -122,19 +122,5 @@ TEST_F(PreviewOfBall, RejectsAnUnknownViewBeforePointsAreRead)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(RequirePhotoMemory, RejectsPhotographsThatNeedMoreThanHalfOfTheLimit)
-{
-    Photographs photographs;
-    photographs.folder = "images";
-    photographs.sizes = {{100, 100}, {4000, 3000}};
-    const std::int64_t needed = std::int64_t{8} * 4000 * 3000;
-    EXPECT_NO_THROW(cli::require_photo_memory(photographs, 0));
-    EXPECT_NO_THROW(cli::require_photo_memory(photographs, 2 * needed));
-    EXPECT_THAT(
-        refusal<InputError>([&] { cli::require_photo_memory(photographs, 2 * needed - 1); }),
-        HasSubstr("images: the largest photograph needs 91.55M of memory, so --max-memory must be "
-                  "at least 183.1M, but is 183.1M; raise it, or scale the photographs down"));
-}
-
 } // namespace
 } // namespace vcarve::picture_output_test

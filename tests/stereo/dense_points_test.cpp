@@ -1,10 +1,11 @@
 #include "stereo/dense_points.h"
+#include "stereo/fuse.h"
 #include "support/made_cells.h"
 #include "support/photographed_wall.h"
-#include "support/recording_log.h"
 #include "support/scenes.h"
 #include "support/stereo_scene.h"
 #include "support/temporary_folder.h"
+#include "vcarve/reconstruct.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,15 +67,22 @@ struct PhotographedRoom {
         sparse.mesh.faces = {{0, 2, 1}, {0, 3, 2}};
     }
 
-    DensePoints measured(int size_px = 160) const
+    DenseStereo measured(const KeepDepthMap& keep = [](std::size_t, const auto& make) {
+        return make();
+    }) const
     {
-        const auto make_anew = [](std::size_t, const std::function<DepthMap()>& make) {
-            return make();
-        };
-        RecordingLog log;
-        return dense_points(sparse, photos, {size_px}, make_anew, log);
+        DenseStereo stereo;
+        stereo.views = undistort_photos(photos, {.size_px = 160}, {});
+        match_views(sparse.scene, sparse.mesh, keep, stereo, {});
+        return stereo;
     }
-    Scene dense() const { return measured().scene; }
+    Scene dense() const
+    {
+        const auto [views, neighbors, maps] = measured();
+        Scene dense = fuse(sparse.scene, {views, maps, neighbors}, {});
+        add_measured(sparse.scene, dense);
+        return dense;
+    }
 };
 
 TEST(DensePoints, LieOnTheSurface)
@@ -131,23 +139,14 @@ TEST(DensePoints, ReuseKeptDepthMaps)
 {
     const PhotographedRoom room;
     std::vector<DepthMap> kept(room.photos.size());
-    RecordingLog log;
-    const DensePoints first = dense_points(
-        room.sparse, room.photos, {160},
-        [&](std::size_t i, const auto& make) { return kept[i] = make(); }, log);
-    const DensePoints second = dense_points(
-        room.sparse, room.photos, {160}, [&](std::size_t i, const auto&) { return kept[i]; }, log);
-    EXPECT_EQ(first.scene.positions, second.scene.positions);
-    EXPECT_EQ(first.picture.depth.rgb, second.picture.depth.rgb);
-}
-
-TEST(DensePoints, IncludeThePictureOfADepthMap)
-{
-    const DepthPicture picture = PhotographedRoom().measured().picture;
-    EXPECT_EQ(picture.photograph.width_px, 80);
-    EXPECT_EQ(picture.depth.height_px, 60);
-    EXPECT_EQ(picture.depth.rgb.size(), 3U * 80 * 60);
-    EXPECT_EQ(picture.photograph.rgb.size(), picture.depth.rgb.size());
+    const DenseStereo first =
+        room.measured([&](std::size_t i, const auto& make) { return kept[i] = make(); });
+    const DenseStereo second =
+        room.measured([&](std::size_t i, const auto& /*make*/) { return kept[i]; });
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        EXPECT_EQ(first.maps[i].costs, second.maps[i].costs);
+        EXPECT_FALSE(second.maps[i].costs.empty());
+    }
 }
 
 TEST(DensePoints, AreTheSparsePointsIfNoViewHasNeighbors)
@@ -161,14 +160,13 @@ TEST(DensePoints, AreTheSparsePointsIfNoViewHasNeighbors)
     EXPECT_EQ(room.dense().positions, scene.positions);
 }
 
-TEST(PredictedStereoMemory, GrowsWithPhotographCountSizeAndThreads)
+TEST(StereoBytes, GrowWithPhotographCountSizeAndThreads)
 {
-    const PhotographedRoom room;
-    const auto bytes = predicted_stereo_memory(room.photos, {160}, 1);
-    EXPECT_GT(predicted_stereo_memory(room.photos, {160}, 2), bytes);
-    EXPECT_LT(predicted_stereo_memory(room.photos, {100}, 1), bytes);
-    EXPECT_LT(predicted_stereo_memory({room.photos.begin(), room.photos.begin() + 3}, {160}, 1),
-              bytes);
+    const std::vector<PhotographSize> photos(7, {160, 120});
+    const double bytes = stereo_bytes(photos, {.size_px = 160}, 1.0);
+    EXPECT_GT(stereo_bytes(photos, {.size_px = 160}, 2.0), bytes);
+    EXPECT_LT(stereo_bytes(photos, {.size_px = 100}, 1.0), bytes);
+    EXPECT_LT(stereo_bytes(std::span(photos).first(3), {.size_px = 160}, 1.0), bytes);
 }
 
 } // namespace

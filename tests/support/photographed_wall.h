@@ -1,8 +1,8 @@
 #pragma once
 
+#include "io/images/calibrated_photo.h"
 #include "io/images/encode_image.h"
 #include "support/temporary_folder.h"
-#include "texture/calibrated_photo.h"
 #include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>

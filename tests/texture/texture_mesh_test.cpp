@@ -1,6 +1,5 @@
 #include "geometry/triangle.h"
 #include "support/photographed_wall.h"
-#include "support/recording_log.h"
 #include "texture/texture_mesh.h"
 
 #include <gtest/gtest.h>
@@ -31,6 +30,27 @@ class PhotographedWall {
     std::vector<CalibratedPhoto> photos;
 };
 
+/// A textured mesh, and what its faces show.
+struct TexturedWall : TexturedMesh {
+    std::vector<std::int32_t> view_of_face;
+    std::vector<std::string> problems;
+};
+
+/// All steps of texturing.
+TexturedWall textured(TriMesh mesh, const std::vector<CalibratedPhoto>& photos,
+                      const TextureLimits& limits = {})
+{
+    TexturedWall made;
+    MeshPhotos shown = {.of_faces = find_photos_of_faces(mesh, photos, {})};
+    color_mesh(mesh, photos, limits.photos_at_a_time, shown, {});
+    PaintedTexture painted = paint_texture(mesh, photos, shown, limits, {});
+    made.mesh = std::move(mesh);
+    made.texture = std::move(painted.texture);
+    made.view_of_face = std::move(painted.view_of_face);
+    made.problems = std::move(shown.problems);
+    return made;
+}
+
 /// The texel at a position of a page, in texture coordinates.
 Array3d texel_at(const Photograph& page, const Eigen::Vector2f& place)
 {
@@ -45,7 +65,7 @@ Array3d texel_at(const Photograph& page, const Eigen::Vector2f& place)
 
 /// The largest difference of a channel between the texture and the wall times `gain`, in levels of
 /// 255, over samples of all faces.
-double worst_difference(const TexturedMesh& made, const Array3d& gain = {1.0, 1.0, 1.0})
+double worst_difference(const TexturedWall& made, const Array3d& gain = {1.0, 1.0, 1.0})
 {
     double worst = 0.0;
     for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
@@ -71,8 +91,7 @@ TEST(TextureMesh, ReproducesTheColorsOfTheWall)
     wall.add({-0.5, 0, -2.5});
     wall.add({0.5, 0, -2.5});
     wall.add({0.0, 0.3, -2.6});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
+    const TexturedWall made = textured(wall_mesh(6), wall.photos);
     EXPECT_LT(worst_difference(made), 6.0); // half a texel of the steepest color is 3 levels
 }
 
@@ -82,8 +101,7 @@ TEST(TextureMesh, EqualizesExposures)
     wall.add({-0.5, 0, -2.5}, {0.8, 0.8, 0.85});
     wall.add({0.5, 0, -2.5}, {1.2, 1.2, 1.15});
     wall.add({0.0, 0.3, -2.6});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
+    const TexturedWall made = textured(wall_mesh(6), wall.photos);
     EXPECT_LT(worst_difference(made), 20.0); // 40 levels without gains
 }
 
@@ -92,8 +110,7 @@ TEST(TextureMesh, HidesTheSeamsBetweenCharts)
     PhotographedWall wall;
     wall.add({-0.5, 0, -1.2}, {0.8, 0.8, 0.85});
     wall.add({0.5, 0, -1.2}, {1.2, 1.2, 1.15});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(20), wall.photos, {}, log);
+    const TexturedWall made = textured(wall_mesh(20), wall.photos);
     std::map<std::array<std::uint32_t, 2>, std::size_t> face_of_edge;
     std::vector<double> steps;
     for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
@@ -122,9 +139,8 @@ TEST(TextureMesh, ReducesTheScaleIfThereAreTooManyTexels)
 {
     PhotographedWall wall;
     wall.add({0, 0, -2.2});
-    RecordingLog log;
-    const TexturedMesh whole = texture_mesh(wall_mesh(4), wall.photos, {}, log);
-    const TexturedMesh small = texture_mesh(wall_mesh(4), wall.photos, {.most_texels = 2000}, log);
+    const TexturedWall whole = textured(wall_mesh(4), wall.photos);
+    const TexturedWall small = textured(wall_mesh(4), wall.photos, {.most_texels = 2000});
     EXPECT_LT(small.texture.pages[0].rgb.size(), whole.texture.pages[0].rgb.size() / 2);
     EXPECT_LT(worst_difference(small), 25.0);
 }
@@ -139,8 +155,7 @@ TEST(TextureMesh, IgnoresAnOccluderInOnePhotograph)
     wall.add({-0.3, 0, -2.5});
     wall.add({0.3, 0, -2.5});
     wall.add({0.0, 0.2, -2.5});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(20), wall.photos, {}, log);
+    const TexturedWall made = textured(wall_mesh(20), wall.photos);
     std::size_t magenta = 0;
     for (const Photograph& page : made.texture.pages) {
         for (std::size_t i = 0; i + 2 < page.rgb.size(); i += 3) {
@@ -154,8 +169,7 @@ TEST(TextureMesh, FillsUnseenFacesWithTheColorsAroundThem)
 {
     PhotographedWall wall;
     wall.add({0.9, 0, -1.0});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(12), wall.photos, {}, log);
+    const TexturedWall made = textured(wall_mesh(12), wall.photos);
     std::size_t unseen = 0;
     for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
         if (made.view_of_face[face] >= 0) continue;
@@ -175,8 +189,7 @@ TEST(TextureMesh, ColorsVerticesFromThePhotographs)
     PhotographedWall wall;
     wall.add({-0.2, 0, -2.5});
     wall.add({0.2, 0, -2.5});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(16), wall.photos, {.only_colors = true}, log);
+    const TexturedWall made = textured(wall_mesh(16), wall.photos, {.only_colors = true});
     EXPECT_TRUE(made.texture.is_empty());
     for (std::size_t vertex = 0; vertex < made.mesh.positions.size(); ++vertex) {
         const Vector3d& at = made.mesh.positions[vertex];
@@ -194,12 +207,11 @@ TEST(TextureMesh, IsByteIdenticalForAnyThreadCount)
         wall.add({0.2 * i - 0.6, 0.1 * (i % 3), -2.2 - 0.1 * (i % 2)},
                  {0.8 + 0.05 * i, 1.0, 1.1 - 0.03 * i});
     }
-    std::map<int, TexturedMesh> made;
+    std::map<int, TexturedWall> made;
     for (const int threads : {1, 2, 5}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-        RecordingLog log;
-        made[threads] = texture_mesh(wall_mesh(10), wall.photos, {}, log);
+        made[threads] = textured(wall_mesh(10), wall.photos);
     }
     for (const int threads : {2, 5}) {
         EXPECT_EQ(made[threads].mesh.positions, made[1].mesh.positions);
@@ -217,8 +229,7 @@ TEST(TextureMesh, IsEmptyForASurfaceWithoutFaces)
 {
     PhotographedWall wall;
     wall.add({0, 0, -2.5});
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh({}, wall.photos, {}, log);
+    const TexturedWall made = textured({}, wall.photos);
     EXPECT_TRUE(made.mesh.faces.empty());
     EXPECT_TRUE(made.texture.is_empty());
 }
@@ -229,11 +240,10 @@ TEST(TextureMesh, SkipsAnUnreadablePhotographAndNamesIt)
     wall.add({0, 0, -2.5});
     wall.add({0.1, 0, -2.0});
     wall.folder.write("1.png", bytes_of(wall.photos[1].file).substr(0, 900));
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(4), wall.photos, {}, log);
+    const TexturedWall made = textured(wall_mesh(4), wall.photos);
     EXPECT_LT(worst_difference(made), 12.0) << "the other photograph shows all faces";
-    ASSERT_EQ(log.notes().size(), 1U);
-    EXPECT_NE(log.notes()[0].find("1.png: found a PNG that cannot be read"), std::string::npos);
+    ASSERT_EQ(made.problems.size(), 1U);
+    EXPECT_NE(made.problems[0].find("1.png: found a PNG that cannot be read"), std::string::npos);
 }
 
 TEST(TextureMesh, IgnoresTransparentPixels)
@@ -250,11 +260,10 @@ TEST(TextureMesh, IgnoresTransparentPixels)
             image.alpha.push_back(i % image.width_px < 80 ? 0 : 255);
         }
         write_cutout(wall.photos[1].file, image);
-        RecordingLog log;
-        return texture_mesh(wall_mesh(8), wall.photos, {}, log);
+        return textured(wall_mesh(8), wall.photos);
     };
-    const TexturedMesh green = made_over({0, 255, 0});
-    const TexturedMesh red = made_over({255, 0, 0});
+    const TexturedWall green = made_over({0, 255, 0});
+    const TexturedWall red = made_over({255, 0, 0});
     EXPECT_LT(worst_difference(green), 12.0);
     EXPECT_EQ(green.mesh.colors, red.mesh.colors);
     ASSERT_EQ(green.texture.pages.size(), red.texture.pages.size());
@@ -269,9 +278,8 @@ TEST(TextureMesh, DoesNotDependOnThePhotographsInMemory)
     for (int i = 0; i < 5; ++i) {
         wall.add({0.2 * i - 0.4, 0, -2.5});
     }
-    RecordingLog log;
-    const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
-    const TexturedMesh one = texture_mesh(wall_mesh(6), wall.photos, {.photos_at_a_time = 1}, log);
+    const TexturedWall made = textured(wall_mesh(6), wall.photos);
+    const TexturedWall one = textured(wall_mesh(6), wall.photos, {.photos_at_a_time = 1});
     EXPECT_EQ(one.texture.pages[0].rgb, made.texture.pages[0].rgb);
     EXPECT_EQ(one.mesh.colors, made.mesh.colors);
 }

@@ -2,8 +2,10 @@
 
 #include "base/arrays.h"
 #include "base/parallel.h"
+#include "io/files/output_file.h"
 #include "model/camera.h"
 #include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <fmt/format.h>
 
@@ -213,6 +215,39 @@ std::optional<Tracks> tracks_of_lists(const Tracks& lists,
                        "and they seem to belong to another model, {}",
                        100.0 * (1.0 - shown), kInstead);
     return std::nullopt;
+}
+
+std::filesystem::path visibility_beside(const std::filesystem::path& cloud)
+{
+    return cloud.string() + ".vis";
+}
+
+void write_dense_points(const std::filesystem::path& cloud, const Scene& scene,
+                        std::span<const std::uint32_t> file_order)
+{
+    TriMesh points;
+    points.positions = scene.positions;
+    points.colors = scene.colors;
+    points.normals = scene.normals;
+    points.offset = scene.offset;
+    write_mesh(cloud, points, {});
+    std::vector<std::uint32_t> number_of_view(scene.views.size());
+    for (std::uint32_t number = 0; number < file_order.size(); ++number) {
+        number_of_view[file_order[number]] = number;
+    }
+    OutputFile file(visibility_beside(cloud));
+    const auto put = [&](const auto value) {
+        file.stream().write(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    put(static_cast<std::uint64_t>(scene.num_points()));
+    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+        const auto track = scene.tracks[point];
+        put(static_cast<std::uint32_t>(track.size()));
+        for (const std::uint32_t view : track) {
+            put(number_of_view[view]);
+        }
+    }
+    file.commit();
 }
 
 } // namespace vcarve

@@ -49,6 +49,14 @@ class VisibilityReader {
     std::uint64_t done_ = 0; ///< points
 };
 
+/// The visibility file of a cloud, as COLMAP names it: with .vis appended.
+std::filesystem::path visibility_beside(const std::filesystem::path& cloud);
+
+/// Writes points and their visibility as COLMAP's stereo_fusion does. `file_order` maps image
+/// indices to view indices. Throws UsageError if a file cannot be written.
+void write_dense_points(const std::filesystem::path& cloud, const Scene& scene,
+                        std::span<const std::uint32_t> file_order);
+
 /// Converts the image lists of points, as in clouds of OpenMVS, to tracks. OpenMVS numbers images
 /// in the order of the images file, and `file_order` maps these indices to views. Of `scene`, only
 /// views and positions are used. Returns nothing, with the reason in `note`, if the lists seem to

@@ -1,6 +1,7 @@
 #include "io/images/find_photographs.h"
 
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "io/files/foreign_file.h"
 #include "io/files/mapped_file.h"
@@ -192,6 +193,64 @@ Photographs find_masks(const Scene& scene, const fs::path& folder)
     return find_pictures(scene, folder, "mask");
 }
 
+namespace {
+
+void note_missing(const Photographs& found, const char* kind, Log& log)
+{
+    if (found.missing > 0) {
+        log.note(fmt::format("{} of {} have no {} in {}", grouped_digits(size_of(found.missing)),
+                             counted(size_of(found.of_view.size()), "views"), kind,
+                             found.folder.string()));
+    }
+    note_unusable(found.unusable, log);
+}
+
+fs::path folder_of(const Options& options, const fs::path& model, Log& log)
+{
+    if (!options.images.empty()) return options.images;
+    const std::optional<fs::path> beside = model.empty() ? std::nullopt : photographs_beside(model);
+    if (!beside) {
+        throw UsageError(fmt::format("found no folder `images` beside {}; name the folder of the "
+                                     "photographs with --images",
+                                     model.empty() ? "the points" : model.string()));
+    }
+    log.note(fmt::format("using the photographs in {}", beside->string()));
+    return *beside;
+}
+
+/// Throws InputError if the largest photograph needs more than half of `most` bytes.
+void require_photo_memory(const Photographs& photographs, std::int64_t most)
+{
+    constexpr std::int64_t kBytesOfPixel = 8; // with its pyramid, while it is decoded
+    std::int64_t needed = 1;
+    for (const PhotographSize& size : photographs.sizes) {
+        needed = std::max(needed, kBytesOfPixel * size.width_px * size.height_px);
+    }
+    if (most <= 0 || 2 * needed <= most) return;
+    throw InputError(fmt::format("{}: the largest photograph needs {} of memory, so --max-memory "
+                                 "must be at least {}, but is {}; raise it, or scale the "
+                                 "photographs down",
+                                 photographs.folder.string(), byte_size_text(needed),
+                                 byte_size_text(2 * needed), byte_size_text(most)));
+}
+
+} // namespace
+
+RunImages find_images(const Scene& scene, const Options& options, const fs::path& model, Log& log)
+{
+    RunImages found;
+    if (!options.masks.folder.empty()) {
+        found.masks = find_masks(scene, options.masks.folder);
+        note_missing(*found.masks, "mask", log);
+    }
+    if (!reads_photographs(options)) return found;
+    found.photographs = find_photographs(scene, folder_of(options, model, log));
+    note_missing(*found.photographs, "photograph", log);
+    require_photo_memory(*found.photographs, options.memory.limit);
+    if (found.masks) found.photographs->masks = found.masks->of_view;
+    return found;
+}
+
 void note_unusable(const std::vector<std::string>& sentences, Log& log)
 {
     constexpr std::size_t kMostNamed = 5;
@@ -217,10 +276,14 @@ std::optional<fs::path> photographs_beside(const fs::path& model)
     const auto images_in = [](const fs::path& parent) { return parent / "images"; };
     if (is_folder(images_in(model))) return images_in(model);
     if (is_file(model / kTransforms) || is_file(model / kTransformsTrain)) return folder;
-    const fs::path parent = folder.parent_path();
-    if (folder.filename() == "sparse" && is_folder(images_in(parent))) return images_in(parent);
+    fs::path parent = folder.parent_path();
+    if (folder.filename() != "sparse") {
+        if (parent.filename() != "sparse") return std::nullopt;
+        parent = parent.parent_path();
+    }
+    if (is_folder(images_in(parent))) return images_in(parent);
     const fs::path above = parent.parent_path();
-    if (parent.filename() == "sparse" && is_folder(images_in(above))) return images_in(above);
+    if (parent.filename() == "colmap" && is_folder(images_in(above))) return images_in(above);
     return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include "model/photograph.h"
 #include "vcarve/log.h"
+#include "vcarve/options.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>
@@ -33,12 +34,33 @@ Photographs find_photographs(const Scene& scene, const std::filesystem::path& fo
 /// name with its extension, as in COLMAP, or without. Throws like find_photographs().
 Photographs find_masks(const Scene& scene, const std::filesystem::path& folder);
 
+/// The photographs and masks of a run.
+struct RunImages {
+    std::optional<Photographs> photographs;
+    std::optional<Photographs> masks; ///< also in Photographs::masks
+};
+
+/// Whether a run with these options reads photographs.
+inline bool reads_photographs(const Options& options)
+{
+    return options.dense.dense || options.texture.texture || !options.images.empty();
+}
+
+/// Finds the photographs and masks that the options need. Without Options::images, photographs are
+/// those beside the model, which is a folder or a file; empty if there is no model. Notes name this
+/// folder, views without files, and unusable files. Throws UsageError if photographs are needed and
+/// no folder is known, and InputError as find_photographs() does, or if the largest photograph
+/// needs more than half of the memory limit.
+RunImages find_images(const Scene& scene, const Options& options,
+                      const std::filesystem::path& model, Log& log);
+
 /// Logs one note about unusable photographs. Each sentence must begin with a path and a colon.
 void note_unusable(const std::vector<std::string>& sentences, Log& log);
 
 /// Returns the folder that the names of a model's photographs are relative to, if it is found. It
 /// is the folder of transforms.json, or a folder `images`. The latter is in the model's folder, or
-/// beside a folder `sparse` that is the model or contains it (sparse/0).
+/// beside a folder `sparse` that is the model or contains it (sparse/0), or beside nerfstudio's
+/// folder `colmap` around that.
 std::optional<std::filesystem::path> photographs_beside(const std::filesystem::path& model);
 
 } // namespace vcarve

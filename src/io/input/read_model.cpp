@@ -187,11 +187,9 @@ void end_stage(Stage& stage, const ReadModel& model)
 
 } // namespace
 
-ReadModel read_found_model(const std::filesystem::path& input, const PointsOptions& options,
-                           Log& log, const Reading& reading)
+ReadModel read_found_model(FoundInput found, Log& log, const Reading& reading)
 {
     Stage stage(log, "read");
-    FoundInput found = find_input(input, options);
     const auto report = [&](const std::vector<std::string>& notes, std::size_t first) {
         std::for_each(notes.begin() + static_cast<std::ptrdiff_t>(first), notes.end(),
                       [&](const std::string& note) { log.note(note); });
@@ -230,7 +228,7 @@ void read_points(const ReadModel& model, std::size_t most, const TakePoints& tak
 
 Scene read_model(const std::filesystem::path& input, const PointsOptions& options, Log& log)
 {
-    return read_found_model(input, options, log).scene;
+    return read_found_model(find_input(input, options), log).scene;
 }
 
 Scene read_model(const std::filesystem::path& input, Log& log)

@@ -35,9 +35,8 @@ struct Reading {
     std::function<bool(const std::optional<SceneSize>&)> wants_sample = {};
 };
 
-/// Reads a model like read_model(). Also returns the files it was read from.
-ReadModel read_found_model(const std::filesystem::path& input, const PointsOptions& options,
-                           Log& log, const Reading& reading = {});
+/// Reads a model that was found, like read_model().
+ReadModel read_found_model(FoundInput found, Log& log, const Reading& reading = {});
 
 /// Reads the points of a model once more, in parts of at most `most`, without cameras and views.
 /// Throws InputError and Cancelled.

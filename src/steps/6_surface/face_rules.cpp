@@ -119,9 +119,11 @@ FaceFlags seen_faces(const Boundary& boundary)
 
 double closing_length(const Scene& scene, const FaceRules& rules, UsualValues* usual)
 {
-    return rules.max_closing * 2.0 * usual_value(usual, &UsualValues::radius, [&] {
-               return region_of_interest(scene).radius;
-           });
+    constexpr double kClosing = 0.115;
+    const bool is_auto = rules.max_closing == FaceRules::kAutoClosing;
+    return (is_auto ? kClosing : rules.max_closing) * 2.0 *
+           usual_value(usual, &UsualValues::radius,
+                       [&] { return region_of_interest(scene).radius; });
 }
 
 std::int64_t drop_unsupported(const Boundary& boundary, const FaceRules& rules, FaceFlags& keep)
@@ -151,7 +153,7 @@ ChosenFaces choose_faces(const Boundary& boundary, const Region* region,
 
     const FaceRules& rules = options.rules;
     const FaceEvidence evidence(boundary, keep);
-    if (rules.max_closing > 0.0) chosen.closing = drop_by(evidence, boundary, rules, keep);
+    if (rules.max_closing != 0.0) chosen.closing = drop_by(evidence, boundary, rules, keep);
     removals.note(keep, Removal::closing);
     for (const std::uint32_t face : small_faces_beside(keep, may_return, evidence, rules)) {
         keep[face] = 1;

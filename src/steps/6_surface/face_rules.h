@@ -67,7 +67,8 @@ namespace vcarve {
 FaceFlags seen_faces(const Boundary& boundary);
 
 /// Returns the length from which the longest edge makes a face long: `max_closing` times the
-/// diameter of the region of interest. Cost: see region_of_interest().
+/// diameter of the region of interest, and 0.115 of it for kAutoClosing. Cost: see
+/// region_of_interest().
 double closing_length(const Scene& scene, const FaceRules& rules, UsualValues* usual = nullptr);
 
 /// Clears the flags of unsupported faces by rows 3 to 7, and returns their number. Does nothing if

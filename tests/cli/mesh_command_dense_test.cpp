@@ -1,4 +1,3 @@
-#include "cli/dense_run.h"
 #include "io/ply/ply_file.h"
 #include "support/places.h"
 #include "support/program.h"
@@ -9,7 +8,7 @@
 
 #include <cstring>
 
-namespace vcarve::dense_run_test {
+namespace vcarve::mesh_command_dense_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -76,4 +75,4 @@ TEST(DenseProgram, RejectsRunsAboveTheMemoryLimit)
 }
 
 } // namespace
-} // namespace vcarve::dense_run_test
+} // namespace vcarve::mesh_command_dense_test

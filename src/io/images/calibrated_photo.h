@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/images/find_photographs.h"
 #include "model/photograph.h"
 #include "vcarve/scene.h"
 
@@ -25,6 +26,11 @@ struct CalibratedPhoto {
     Camera camera;                  ///< as in the model
     Eigen::Array2d scale{1.0, 1.0}; ///< photograph pixels per camera pixel
 };
+
+/// Returns the photographs of a scene's views, in the frame of a mesh. Skips views without a
+/// photograph or with an unknown lens.
+std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photographs& photographs,
+                                               const Eigen::Vector3d& mesh_offset);
 
 /// Projects a position in the frame of the mesh to a pixel; the first pixel's center is (0.5, 0.5).
 /// Returns nothing if the photograph does not show it. Cost: as project().

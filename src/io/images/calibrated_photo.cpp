@@ -1,4 +1,4 @@
-#include "texture/calibrated_photo.h"
+#include "io/images/calibrated_photo.h"
 
 #include "io/images/read_photograph.h"
 #include "model/camera.h"
@@ -11,6 +11,33 @@
 #include <utility>
 
 namespace vcarve {
+
+std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photographs& photographs,
+                                               const Eigen::Vector3d& mesh_offset)
+{
+    std::vector<CalibratedPhoto> photos;
+    const std::vector<double> focals_px = mean_focals_px(scene.cameras);
+    for (std::uint32_t i = 0; i < scene.views.size(); ++i) {
+        const View& view = scene.views[i];
+        const Camera& camera = scene.cameras[view.camera];
+        if (photographs.of_view[i].empty() || !project(camera, Eigen::Vector3d::UnitZ()) ||
+            camera.width_px == 0 || camera.height_px == 0) {
+            continue;
+        }
+        CalibratedPhoto& photo = photos.emplace_back();
+        photo.file = photographs.of_view[i];
+        if (!photographs.masks.empty()) photo.mask = photographs.masks[i];
+        photo.size = photographs.sizes[i];
+        photo.view = i;
+        photo.pose = view;
+        photo.pose.center += scene.offset - mesh_offset;
+        photo.camera = camera;
+        photo.scale = {photo.size.width_px / static_cast<double>(camera.width_px),
+                       photo.size.height_px / static_cast<double>(camera.height_px)};
+        photo.focal_px = focals_px[view.camera] * photo.scale.mean();
+    }
+    return photos;
+}
 
 std::optional<Eigen::Vector2d> pixel_beyond(const CalibratedPhoto& photo,
                                             const Eigen::Vector3d& position)

@@ -1,5 +1,5 @@
-#include "cli/run_memory.h"
 #include "support/temporary_folder.h"
+#include "tiles/run_memory.h"
 #include "vcarve/error.h"
 
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::cli::run_memory_test {
+namespace vcarve::run_memory_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -23,17 +23,14 @@ struct Notes : Log {
 constexpr SceneSize kMillion = {.points = 1'000'000, .rays = 4'000'000, .views = 300};
 const RunSize kRun = {.read = kMillion, .thinned = kMillion};
 
-MeshArguments with_memory(std::int64_t bytes)
+RunMemory with_memory(std::int64_t bytes, std::size_t tile_points = 0, bool one_piece = false)
 {
-    MeshArguments arguments;
-    arguments.options.memory.limit = bytes;
-    return arguments;
+    return {{.limit = bytes}, tile_points, one_piece, 1};
 }
 
 TEST(RunMemory, MeshesInOnePieceIfThatFits)
 {
-    const MeshArguments arguments = with_memory(predicted_peak(kRun, 1));
-    RunMemory memory(arguments, 1);
+    RunMemory memory = with_memory(predicted_peak(kRun, 1));
     Notes notes;
     memory.fit(kRun, notes);
     EXPECT_EQ(memory.tile_points(), 0U);
@@ -42,24 +39,20 @@ TEST(RunMemory, MeshesInOnePieceIfThatFits)
 
 TEST(RunMemory, ChoosesTilesOnceIfMemoryIsShort)
 {
-    const MeshArguments arguments = with_memory(predicted_peak(kRun, 1) - 1);
-    RunMemory memory(arguments, 1);
+    RunMemory memory = with_memory(predicted_peak(kRun, 1) - 1);
     Notes notes;
     memory.fit(kRun, notes);
     const std::size_t points = memory.tile_points();
     EXPECT_GT(points, 100'000U);
     memory.fit(kRun, notes);
     EXPECT_EQ(memory.tile_points(), points);
-    EXPECT_EQ(memory.record()["tile_points"], points);
     EXPECT_THAT(notes.heard, ElementsAre(MatchesRegex("about [0-9.]+M needed, [0-9.]+M allowed: "
                                                       "tiles of [0-9,]+ points")));
 }
 
 TEST(RunMemory, RejectsOptionsThatNeedOnePieceIfMemoryIsShort)
 {
-    MeshArguments arguments = with_memory(predicted_peak(kRun, 1) - 1);
-    arguments.options.surface.closed = true;
-    RunMemory memory(arguments, 1);
+    RunMemory memory = with_memory(predicted_peak(kRun, 1) - 1, 0, true);
     Notes notes;
     EXPECT_THAT(refusal<InputError>([&] { memory.fit(kRun, notes); }),
                 MatchesRegex("1000000 points with 4000000 rays need about [0-9.]+M of memory, and "
@@ -68,9 +61,7 @@ TEST(RunMemory, RejectsOptionsThatNeedOnePieceIfMemoryIsShort)
 
 TEST(RunMemory, KeepsTheNumberOfPointsThatIsGiven)
 {
-    MeshArguments arguments = with_memory(0);
-    arguments.tile_points = 5000;
-    RunMemory memory(arguments, 1);
+    RunMemory memory = with_memory(0, 5000);
     Notes notes;
     memory.fit(kRun, notes);
     EXPECT_EQ(memory.tile_points(), 5000U);
@@ -83,11 +74,19 @@ TEST(RunMemory, AllowsTheGivenLimitOrMostOfTheFreeMemory)
     EXPECT_GT(allowed_memory({}), 1000);
 }
 
-TEST(FolderBeside, IsNotInTheFolderOfADevice)
+TEST(RunMemory, RefusesDepthMapsThatDoNotFitEvenWithTiles)
 {
-    EXPECT_THAT(folder_beside("a/out.ply").string(), MatchesRegex("a/out.ply.tiles-[0-9]+"));
-    EXPECT_NE(folder_beside("/dev/null").parent_path(), "/dev");
+    RunSize size = kRun;
+    size.measures_dense = true;
+    size.photos.assign(300, {4000, 3000});
+    EXPECT_GT(predicted_peak(size, 1), predicted_peak(kRun, 1));
+    RunMemory memory = with_memory(predicted_peak(size, 1) - 1, 5000);
+    Notes notes;
+    EXPECT_THAT(refusal<InputError>([&] { memory.fit(size, notes); }),
+                MatchesRegex("--dense needs about [0-9.]+[MG] of memory for 300 photographs, but "
+                             "the limit is [0-9.]+[MG]; use a smaller --dense-size, fewer "
+                             "--threads, or a larger --max-memory"));
 }
 
 } // namespace
-} // namespace vcarve::cli::run_memory_test
+} // namespace vcarve::run_memory_test

@@ -1,4 +1,4 @@
-#include "picture/first_faces.h"
+#include "mesh/first_faces.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

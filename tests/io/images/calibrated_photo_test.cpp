@@ -1,5 +1,5 @@
+#include "io/images/calibrated_photo.h"
 #include "support/photographed_wall.h"
-#include "texture/calibrated_photo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,26 +1,23 @@
 #pragma once
 
-#include "cli/mesh_arguments.h"
-#include "cli/run_record.h"
 #include "pipeline/memory.h"
+#include "vcarve/log.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 
-namespace vcarve::cli {
+namespace vcarve {
 
 /// The memory limit in bytes: as given, or 80 % of the free memory. Nothing if unlimited.
 std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted);
 
-/// A unique path beside the output, or in the temporary folder if the output is a device.
-std::filesystem::path folder_beside(const std::filesystem::path& out);
-
 /// Decides whether a model is meshed in one piece or in tiles.
 class RunMemory {
   public:
-    RunMemory(const MeshArguments& arguments, int threads);
+    /// `tile_points` is the maximum number of points of a tile, 0 if memory decides. Models that
+    /// need `one_piece` are never divided.
+    RunMemory(const MemoryOptions& wanted, std::size_t tile_points, bool one_piece, int threads);
 
     /// Decides for a size; called again when it is known better. Tiles are noted once, and kept.
     /// Throws InputError if the memory is insufficient.
@@ -28,15 +25,18 @@ class RunMemory {
 
     /// The maximum number of points of a tile; 0 in one piece.
     std::size_t tile_points() const { return tile_points_; }
-    /// {"tile_points", "needed_bytes", "allowed_bytes"}; the second is of a run in one piece.
-    Json record() const;
+    /// Bytes of a run in one piece.
+    std::int64_t needed() const { return needed_; }
+    /// The limit in bytes; 0 if unlimited.
+    std::int64_t allowed() const { return allowed_; }
 
   private:
-    const MeshArguments& arguments_;
+    bool is_given_;
+    bool one_piece_;
     int threads_;
-    std::int64_t allowed_; ///< bytes; 0 if unlimited
+    std::int64_t allowed_;
     std::int64_t needed_ = 0;
     std::size_t tile_points_;
 };
 
-} // namespace vcarve::cli
+} // namespace vcarve

@@ -1,0 +1,144 @@
+#include "base/text.h"
+#include "io/images/find_photographs.h"
+#include "model/camera.h"
+#include "pipeline/run_state.h"
+#include "pipeline/stages.h"
+#include "stereo/fuse.h"
+#include "texture/masked_faces.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vcarve::stage_runs {
+
+namespace {
+
+/// The photographs whose lens is known, in the frame of a mesh with this offset.
+std::vector<CalibratedPhoto> usable_photos(const RunState& run, const Eigen::Vector3d& offset)
+{
+    const Photographs& photographs = *run.images->photographs;
+    std::vector<CalibratedPhoto> photos = calibrated_photos(run.points.scene, photographs, offset);
+    const auto found =
+        std::ranges::count_if(photographs.of_view, [](const auto& file) { return !file.empty(); });
+    if (photos.empty()) {
+        throw InputError(fmt::format("{}: no photograph can be used, because the views have an "
+                                     "unknown lens or no image size; expected one of COLMAP's "
+                                     "camera models",
+                                     photographs.folder.string()));
+    }
+    if (const auto left_out = size_of(found) - size_of(photos.size()); left_out > 0) {
+        run.log.note(
+            fmt::format("photographs ignored because their lens is unknown: {}", left_out));
+    }
+    return photos;
+}
+
+} // namespace
+
+Counts undistort(RunState& run, const Progress& progress)
+{
+    const Scene& scene = run.points.scene;
+    const Photographs& photographs = *run.images->photographs;
+    run.photos = calibrated_photos(scene, photographs, scene.offset);
+    std::erase_if(run.photos,
+                  [](const CalibratedPhoto& photo) { return !intrinsics(photo.camera); });
+    if (run.photos.size() < 3) {
+        throw InputError(fmt::format("{}: --dense needs at least 3 photographs of views with a "
+                                     "known, non-spherical lens, but found {}; name their folder "
+                                     "with --images",
+                                     photographs.folder.string(), run.photos.size()));
+    }
+    run.stereo.views = undistort_photos(run.photos, run.options().dense, progress);
+    std::vector<std::string> unreadable;
+    for (const StereoView& view : run.stereo.views) {
+        if (!view.problem.empty()) unreadable.push_back(view.problem);
+    }
+    note_unusable(unreadable, run.log);
+    return {{"photographs", size_of(run.photos.size() - unreadable.size())}};
+}
+
+Counts match(RunState& run, const Progress& progress)
+{
+    match_views(run.points.scene, run.surface, run.keep_depth, run.stereo, progress);
+    std::int64_t measured = 0;
+    std::int64_t pixels = 0;
+    for (const DepthMap& map : run.stereo.maps) {
+        measured += num_measured(map);
+        pixels += size_of(map.planes.size());
+    }
+    return {{"depth maps", size_of(run.stereo.maps.size())},
+            {"pixels measured", measured},
+            {"of", pixels}};
+}
+
+Counts fuse(RunState& run, const Progress& progress)
+{
+    const Scene& sparse = run.points.scene;
+    const auto& [views, neighbors, maps] = run.stereo;
+    run.dense = vcarve::fuse(sparse, {views, maps, neighbors}, progress);
+    const Counts counts = {{"points", size_of(run.dense.num_points())},
+                           {"pixels fused", size_of(run.dense.num_rays())}};
+    add_measured(sparse, run.dense);
+    const std::size_t shown = fullest(maps);
+    run.depth = depth_picture(views[shown], maps[shown]);
+    return counts;
+}
+
+Counts remove_masked(RunState& run, const Progress& progress)
+{
+    const Photographs& masks = *run.images->masks;
+    const std::int64_t before = size_of(run.surface.faces.size());
+    run.surface = without_masked_faces(
+        run.surface, calibrated_photos(run.points.scene, masks, run.surface.offset), progress);
+    if (run.surface.faces.empty()) {
+        throw InputError(fmt::format("the masks in {} exclude all faces; black pixels are "
+                                     "excluded, so the masks may need to be inverted",
+                                     masks.folder.string()));
+    }
+    return {{"masks", size_of(masks.of_view.size() - masks.missing)},
+            {"faces", size_of(run.surface.faces.size())},
+            {"of", before}};
+}
+
+Counts find_photos(RunState& run, const Progress& progress)
+{
+    run.photos = usable_photos(run, run.surface.offset);
+    run.shown.of_faces = find_photos_of_faces(run.surface, run.photos, progress);
+    const auto seen = std::ranges::count_if(
+        run.shown.of_faces, [](const PhotosOfFace& found) { return found.count > 0; });
+    return {{"photographs", size_of(run.photos.size())},
+            {"faces", size_of(run.surface.faces.size())},
+            {"seen", seen}};
+}
+
+Counts color(RunState& run, const Progress& progress)
+{
+    const TextureLimits limits = texture_limits(run.options(), run.images->photographs->sizes);
+    const ColoredVertices colored =
+        color_mesh(run.surface, run.photos, limits.photos_at_a_time, run.shown, progress);
+    note_unusable(run.shown.problems, run.log);
+    return {{"vertices", size_of(colored.vertices)}, {"outliers", size_of(colored.outliers)}};
+}
+
+Counts paint(RunState& run, const Progress& progress)
+{
+    const TextureLimits limits = texture_limits(run.options(), run.images->photographs->sizes);
+    PaintedTexture painted = paint_texture(run.surface, run.photos, run.shown, limits, progress);
+    if (painted.scale < limits.scale) {
+        run.notes.push_back(fmt::format("to limit memory, the texture has only {:.2f} texels per "
+                                        "photograph pixel (along a side)",
+                                        painted.scale));
+    }
+    const auto bare = std::ranges::count(painted.view_of_face, -1);
+    run.texture = std::move(painted.texture);
+    return {{"charts", size_of(painted.charts)},
+            {"pages", size_of(run.texture.pages.size())},
+            {"faces without photograph", bare}};
+}
+
+} // namespace vcarve::stage_runs
