@@ -131,7 +131,7 @@ std::optional<Photographs> masks_of(const TextureArguments& arguments, const Sce
 TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& masks, Log& log)
 {
     Stage stage(log, "masks");
-    TriMesh kept = without_masked_faces(mesh, calibrated_photos(scene, masks, mesh.offset), stage);
+    TriMesh kept = without_masked_faces(mesh, views_with_masks(scene, masks, mesh.offset), stage);
     if (kept.faces.empty()) {
         throw InputError(fmt::format("the masks in {} exclude all faces; black pixels are "
                                      "excluded, so the masks may need to be inverted",
