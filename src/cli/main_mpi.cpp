@@ -34,7 +34,8 @@ void run(std::vector<std::string> arguments)
         return word.starts_with("--tile-points");
     };
     if (std::ranges::none_of(arguments, is_tile_option)) {
-        arguments.emplace_back("--tile-points=250000"); // for any number of processes
+        // For any number of processes. Words after `--` are no options.
+        arguments.emplace(std::ranges::find(arguments, "--"), "--tile-points=250000");
     }
     const cli::Command command = {"", manual, cli::run_mesh};
     cli::run_command_line(arguments, {&command, 1});

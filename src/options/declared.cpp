@@ -303,8 +303,8 @@ OptionList cleanup_options(Options& options)
          {.name = "simplify",
           .unit = "faces",
           .help = "Simplify to about N faces. A merge that would occlude an observed point is "
-                  "rejected; 0 disables. auto: simplify meshes of dense points, within a quarter "
-                  "of the vertex spacing.",
+                  "rejected; 0 disables. auto: simplify meshes of dense points, mostly within a "
+                  "quarter of the vertex spacing.",
           .words = {"auto"},
           .word_value = SimplifyOptions::kAutoFaces},
          &options.refine.simplify.faces},

@@ -299,7 +299,7 @@ Counts denoise_vertices(RunState& run, const Progress& progress)
 /// Collapses edges, and then splits non-manifold edges and vertices as clean() does.
 Counts decimate(RunState& run, const Progress& /*progress*/)
 {
-    constexpr double kMostMoved = 0.25; // in vertex spacings
+    constexpr double kMostMoved = 0.25; // in vertex spacings; an estimate, see collapse_edges()
     constexpr double kSmall = 4.0;      // squared spacings per face of min_component
     const double spacing = usual_value(&run.usual, &UsualValues::vertex_spacing, [&] {
         std::vector<double> spacings = vertex_spacings(*run.mesh);

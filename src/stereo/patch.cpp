@@ -40,13 +40,6 @@ constexpr Offsets make_offsets()
 
 constexpr Offsets kOffsets = make_offsets();
 
-/// The center of a patch in a source image, and the linear map of its pixels there.
-struct Footprint {
-    float x, y;   ///< pixel
-    float xx, xy; ///< change of x per pixel to the right, and down
-    float yx, yy;
-};
-
 /// Weighted sums over the samples of a footprint.
 struct Sums {
     float value = 0.0F;
@@ -62,8 +55,8 @@ Sums sums_over(const GrayImage& image, const Footprint& at, const Lanes& weights
     const int width = image.width_px;
     alignas(32) float values[kLanes];
     for (int k = 0; k < kLanes; ++k) {
-        const float x = at.x + at.xx * kOffsets.x[k] + at.xy * kOffsets.y[k];
-        const float y = at.y + at.yx * kOffsets.x[k] + at.yy * kOffsets.y[k];
+        const float x = at.x_at(kOffsets.x[k], kOffsets.y[k]);
+        const float y = at.y_at(kOffsets.x[k], kOffsets.y[k]);
         const int column = static_cast<int>(x);
         const int row = static_cast<int>(y);
         const float right = x - static_cast<float>(column);
@@ -92,17 +85,6 @@ Sums sums_over(const GrayImage& image, const Footprint& at, const Lanes& weights
         sums.product += product[lane];
     }
     return sums;
-}
-
-/// Whether all samples and their right and lower neighbors lie in the image.
-bool is_inside(const GrayImage& image, const Footprint& at)
-{
-    constexpr float kReach = Patch::kRadius * Patch::kStepPx;
-    const float reach_x = kReach * (std::abs(at.xx) + std::abs(at.xy));
-    const float reach_y = kReach * (std::abs(at.yx) + std::abs(at.yy));
-    return at.x - reach_x >= 0.0F && at.y - reach_y >= 0.0F &&
-           at.x + reach_x < static_cast<float>(image.width_px - 1) &&
-           at.y + reach_y < static_cast<float>(image.height_px - 1);
 }
 
 /// Variance of the central 3 x 3 samples.
@@ -136,6 +118,15 @@ float bilinear(const GrayImage& image, float x, float y)
 
 } // namespace
 
+bool Footprint::is_inside(int width_px, int height_px) const
+{
+    constexpr float kReach = Patch::kRadius * Patch::kStepPx;
+    const Footprint upright = {x, y, std::abs(xx), std::abs(xy), std::abs(yx), std::abs(yy)};
+    return upright.x_at(-kReach, -kReach) >= 0.0F && upright.y_at(-kReach, -kReach) >= 0.0F &&
+           upright.x_at(kReach, kReach) < static_cast<float>(width_px - 1) &&
+           upright.y_at(kReach, kReach) < static_cast<float>(height_px - 1);
+}
+
 bool Patch::set(const GrayImage& image, int x, int y)
 {
     constexpr float kSigmaGray = 25.0F;
@@ -143,7 +134,7 @@ bool Patch::set(const GrayImage& image, int x, int y)
     // Pixels without texture beside a strong edge would match at the depth of the edge.
     constexpr float kLeastInnerShare = 0.1F;
     const Footprint at = {static_cast<float>(x), static_cast<float>(y), 1.0F, 0.0F, 0.0F, 1.0F};
-    if (!is_inside(image, at)) return false;
+    if (!at.is_inside(image.width_px, image.height_px)) return false;
     weights_.fill(0.0F);
     differences_.fill(0.0F);
     const float center = image.at(x, y);
@@ -152,7 +143,7 @@ bool Patch::set(const GrayImage& image, int x, int y)
     float mean = 0.0F;
     for (int k = 0; k < kSide * kSide; ++k) {
         values[k] = bilinear(image, at.x + kOffsets.x[k], at.y + kOffsets.y[k]);
-        if (values[k] < 0.0F) return false;
+        if (std::isnan(values[k])) return false;
         const float gray = (values[k] - center) / kSigmaGray;
         const float far_sq =
             (kOffsets.x[k] * kOffsets.x[k] + kOffsets.y[k] * kOffsets.y[k]) / (kSigmaPx * kSigmaPx);
@@ -205,10 +196,10 @@ float MatchedView::cost(const Patch& patch, const Eigen::Vector3f& ray, float re
     const Eigen::Vector2f right = change(0);
     const Eigen::Vector2f down = change(1);
     const Footprint at = {pixel.x(), pixel.y(), right.x(), down.x(), right.y(), down.y()};
-    if (!is_inside(image_, at)) return -1.0F;
+    if (!at.is_inside(image_.width_px, image_.height_px)) return -1.0F;
     const Sums sums = sums_over(image_, at, patch.weights(), patch.differences());
     const float variance = sums.square - sums.value * sums.value;
-    if (variance < kLeastVariance) return 1.0F;
+    if (!(variance >= kLeastVariance)) return std::isnan(variance) ? -1.0F : 1.0F;
     const float correlation = sums.product / (std::sqrt(variance) * patch.deviation());
     return 1.0F - std::clamp(correlation, -1.0F, 1.0F);
 }

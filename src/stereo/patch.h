@@ -23,7 +23,8 @@ class Patch {
     static constexpr int kSide = 2 * kRadius + 1;
     static constexpr int kLanes = 56; ///< samples, padded to a multiple of 8 with weights of 0
 
-    /// Returns false if the patch leaves the image; then no other function may be called.
+    /// Returns false if the patch leaves the image or touches a pixel of kNoGray; then no other
+    /// function may be called.
     bool set(const GrayImage& image, int x, int y);
 
     /// Standard deviation in gray levels. If it is small, the patch has no texture to match.
@@ -39,6 +40,21 @@ class Patch {
     float deviation_ = 0.0F;
 };
 
+/// The center of a patch in a source image, and the linear map of its pixels there.
+struct Footprint {
+    float x, y;   ///< pixel
+    float xx, xy; ///< change of x per pixel to the right, and down
+    float yx, yy;
+
+    /// The pixel of a sample that is `right` and `down` of the center, in pixels of the reference.
+    float x_at(float right, float down) const { return x + xx * right + xy * down; }
+    float y_at(float right, float down) const { return y + yx * right + yy * down; }
+
+    /// Whether all samples and their right and lower neighbors lie in an image of this size. Holds
+    /// for the rounded samples: rounding is monotonic, so those in the corners are the outermost.
+    bool is_inside(int width_px, int height_px) const;
+};
+
 /// A view that the reference view is matched with.
 class MatchedView {
   public:
@@ -47,8 +63,9 @@ class MatchedView {
                 const Pinhole& camera);
 
     /// Dissimilarity of the patch and its image under the plane: 1 - normalized cross-correlation,
-    /// from 0 to 2; negative if the source does not show the whole patch. The homography is
-    /// linearized at the center of the patch, whose ray is `ray`. Cost: 49 samples.
+    /// from 0 to 2; negative if the source does not show the whole patch, or a sample touches a
+    /// pixel of kNoGray. The homography is linearized at the center of the patch, whose ray is
+    /// `ray`. Cost: 49 samples.
     float cost(const Patch& patch, const Eigen::Vector3f& ray, float reference_focal_px,
                const PixelPlane& plane) const;
 

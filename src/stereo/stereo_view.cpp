@@ -71,11 +71,9 @@ GrayImage halved(const GrayImage& image)
     half.pixels.resize(static_cast<std::size_t>(half.width_px) * half.height_px);
     for (int y = 0; y < half.height_px; ++y) {
         for (int x = 0; x < half.width_px; ++x) {
-            const float values[] = {image.at(2 * x, 2 * y), image.at(2 * x + 1, 2 * y),
-                                    image.at(2 * x, 2 * y + 1), image.at(2 * x + 1, 2 * y + 1)};
-            const bool is_whole = std::ranges::min(values) >= 0.0F;
             half.pixels[static_cast<std::size_t>(y) * half.width_px + x] =
-                is_whole ? 0.25F * (values[0] + values[1] + values[2] + values[3]) : -1.0F;
+                0.25F * (image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y) +
+                         image.at(2 * x, 2 * y + 1) + image.at(2 * x + 1, 2 * y + 1));
         }
     }
     return half;
@@ -110,7 +108,7 @@ StereoView stereo_view(const CalibratedPhoto& photo, int size_px)
     for (int y = 0; y < image.height_px; ++y) {
         for (int x = 0; x < image.width_px; ++x) {
             const auto color = photograph.mean_at(x, y);
-            image.pixels.push_back(color ? gray(*color) : -1.0F);
+            image.pixels.push_back(color ? gray(*color) : kNoGray);
             if (x % kDepthStep == 0 && y % kDepthStep == 0) {
                 result.colors.push_back(color ? rounded_color(*color) : Color());
             }

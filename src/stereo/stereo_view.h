@@ -8,12 +8,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace vcarve {
 
-/// A gray image, 0 to 255, row by row from the top. Pixel centers have integer coordinates.
+/// The gray level of a pixel that shows nothing. Any sum with it is NaN too.
+inline constexpr float kNoGray = std::numeric_limits<float>::quiet_NaN();
+
+/// A gray image, 0 to 255 or kNoGray, row by row from the top. Pixel centers have integer
+/// coordinates.
 struct GrayImage {
     int width_px = 0;
     int height_px = 0;
@@ -22,7 +27,7 @@ struct GrayImage {
     float at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width_px + x]; }
 };
 
-/// Averages every 2 x 2 pixels to one. Drops an odd last row or column.
+/// Averages every 2 x 2 pixels to one, kNoGray if one is. Drops an odd last row or column.
 GrayImage halved(const GrayImage& image);
 
 /// A pinhole camera: u = focal x / z + principal.
@@ -46,7 +51,7 @@ struct StereoView {
     Eigen::Matrix3d cam_from_world = Eigen::Matrix3d::Identity(); ///< rotation
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     Pinhole camera;
-    GrayImage image;           ///< -1 outside the photograph, and if transparent
+    GrayImage image;           ///< kNoGray beyond the photograph and if transparent
     std::vector<Color> colors; ///< per pixel of the depth map
     std::string problem;       ///< error if the photograph is unreadable, else empty
 };
@@ -71,7 +76,7 @@ double working_scale(const PhotographSize& photograph, int size_px);
 
 /// Undistorts a photograph to a pinhole image, like COLMAP's image_undistorter. The longest side is
 /// at most `size_px` and never longer than the photograph's. Each pixel is the mean of four samples
-/// half a pixel apart. An unreadable photograph gives an image of -1. Cost: decoding, and four
+/// half a pixel apart. An unreadable photograph gives an image of kNoGray. Cost: decoding, and four
 /// samples per pixel.
 StereoView stereo_view(const CalibratedPhoto& photo, int size_px);
 

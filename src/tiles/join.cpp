@@ -135,8 +135,7 @@ class Joiner {
         }
         HalfEdgeMesh repaired(manifold.mesh, manifold.twins);
         seams.filled = fill_holes(repaired, max_hole);
-        boundary_edges_ += std::ranges::count_if(
-            repaired.edges(), [](const auto& edge) { return edge.is_boundary(); });
+        boundary_edges_ += num_boundary_edges(repaired);
         set_vertex_normals(repaired);
         // Faces beyond the patch keep the other vertices together.
         std::vector<std::uint32_t> number(repaired.n_vertices(), kNoPoint);

@@ -1,10 +1,16 @@
+#include "compare/reference.h"
+#include "geometry/triangle_tree.h"
 #include "mesh/collapse_edges.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <random>
+#include <vector>
 
 namespace vcarve::collapse_edges_test {
 namespace {
@@ -69,6 +75,48 @@ TEST(CollapseEdges, KeepsBumpsAboveMaxDistance)
     };
     EXPECT_EQ(top(collapse_edges(mesh, {.max_distance = 0.1})), 2.0);
     EXPECT_EQ(top(collapse_edges(mesh, {.max_distance = 100.0})), 0.0);
+}
+
+/// The sheet with bumps, and noise up to `noise` in all directions.
+TriMesh bumpy(std::uint32_t squares, double noise)
+{
+    TriMesh mesh = flat(squares);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> moved(-noise, noise);
+    for (Eigen::Vector3d& position : mesh.positions) {
+        position.z() = 3.0 * std::sin(position.x() / 15.0) * std::cos(position.y() / 20.0);
+        position += Eigen::Vector3d(moved(random), moved(random), moved(random));
+    }
+    return mesh;
+}
+
+/// Distances of a mesh's vertices to its simplification, in units of `max_distance`, ascending.
+std::vector<double> distances_after(const TriMesh& mesh, const CollapseLimits& limits)
+{
+    const TriMesh coarse = collapse_edges(mesh, limits);
+    EXPECT_LT(coarse.faces.size(), mesh.faces.size() / 2);
+    std::vector<double> distances = distances_to(TriangleTree(coarse), mesh.positions);
+    for (double& distance : distances) {
+        distance /= limits.max_distance;
+    }
+    std::ranges::sort(distances);
+    return distances;
+}
+
+TEST(CollapseEdges, MovesTheSurfaceAsItsHeaderSays)
+{
+    for (const double noise : {0.0, 0.2}) {
+        const std::vector<double> distances =
+            distances_after(bumpy(350, noise), {.max_distance = 0.25});
+        double sum_sq = 0.0;
+        for (const double distance : distances) {
+            sum_sq += distance * distance;
+        }
+        const auto count = static_cast<double>(distances.size());
+        EXPECT_LT(std::sqrt(sum_sq / count), 0.6) << noise;
+        EXPECT_LT(distances[distances.size() * 97 / 100], 1.0) << noise;
+        EXPECT_LT(distances.back(), 4.0) << noise;
+    }
 }
 
 TEST(CollapseEdges, StopsAtMinFaces)

@@ -8,6 +8,7 @@
 #include "model/scene_check.h"
 #include "model/scene_points.h"
 #include "model/views.h"
+#include "steps/1_points/wide_angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,16 +196,7 @@ bool sees_from_wide_enough(const Scene& scene, const Vector3d& point,
     for (const std::uint32_t view : track) {
         directions.push_back(scene.views[view].center - point);
     }
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-            const double sine = directions[i].cross(directions[j]).norm();
-            const double cosine = directions[i].dot(directions[j]);
-            if (std::atan2(sine, cosine) >= min_angle_rad) {
-                return true;
-            }
-        }
-    }
-    return false;
+    return look_for_angle(directions, min_angle_rad).is_found;
 }
 
 enum class Verdict : std::uint8_t { keep, few_views, high_error, low_angle };

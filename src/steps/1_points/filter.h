@@ -42,8 +42,8 @@ struct FilteredPoints {
 /// point that a scanner measured needs no second view and no angle between rays. Points at the same
 /// position (first_at_place) become one, with the views of all. Its other values are those of the
 /// best point (most views, then smallest error, then smallest id). The input order is kept. Cost:
-/// O(points log points + rays), in parallel, and 36 bytes per point beside the scene, if it is
-/// moved here.
+/// O(points log points + rays), except for points at the limit of angles (wide_angle.h); in
+/// parallel, and 36 bytes per point beside the scene, if it is moved here.
 FilteredPoints filter_points(Scene scene, const FilterOptions& options,
                              const Progress& progress = {});
 
