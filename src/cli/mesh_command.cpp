@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "cli/commands.h"
@@ -42,7 +43,7 @@ namespace vcarve::cli {
 
 namespace {
 
-constexpr int kStatsSchema = 2; ///< version of --stats; increased if keys change
+constexpr int kStatsSchema = 3; ///< version of --stats; increased if keys change
 
 namespace fs = std::filesystem;
 
@@ -120,7 +121,8 @@ void write_surface(const MeshArguments& arguments, const Surface& surface, const
                         "use --offset auto",
                         arguments.out.string(), share));
     }
-    stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
+    stage.end({{counts::kOutput.faces, size_of(mesh.faces.size())},
+               {counts::kOutput.vertices, size_of(mesh.positions.size())}});
 }
 
 void write_stats(const fs::path& path, const Json& record)
@@ -200,8 +202,8 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
     Stage stage(run.log, "merge");
     input.read = size_of(dense.scene);
     input.scene = thin_points(dense.scene, options.thin, stage);
-    stage.end(
-        {{"points", size_of(input.scene.num_points())}, {"of", size_of(dense.scene.num_points())}});
+    stage.end({{counts::kMerge.points, size_of(input.scene.num_points()),
+                size_of(dense.scene.num_points())}});
     RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
     fit_memory(run, size);

@@ -1,5 +1,6 @@
 #include "cli/picture_output.h"
 
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "io/colmap/colmap_model.h"
 #include "io/formats/textured_files.h"
@@ -137,9 +138,9 @@ TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& mas
                                      "excluded, so the masks may need to be inverted",
                                      masks.folder.string()));
     }
-    stage.end({{"masks", size_of(masks.of_view.size() - masks.missing)},
-               {"faces", size_of(kept.faces.size())},
-               {"of", size_of(mesh.faces.size())}});
+    stage.end(
+        {{counts::kTexture.masks, size_of(masks.of_view.size() - masks.missing)},
+         {counts::kTexture.unmasked, size_of(kept.faces.size()), size_of(mesh.faces.size())}});
     return kept;
 }
 
@@ -253,7 +254,7 @@ void PreviewOutput::add(const std::string& name, const TriMesh& mesh, const Text
     Stage stage(log, "preview");
     const std::int64_t pixels = preview_->add(name, mesh, texture);
     is_empty_ = false;
-    stage.end({{"pixels of " + name, pixels}});
+    stage.end({{counts::kOutput.pixels, pixels, kNoTotal, name}});
 }
 
 void PreviewOutput::write()

@@ -1,6 +1,7 @@
 #include "cli/shared_work.h"
 
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "cli/run_memory.h"
 #include "io/input/find_input.h"
 #include "run/job.h"
@@ -32,7 +33,7 @@ Job job_of(const MeshArguments& arguments, Log& log)
     const Job input =
         input_facts(find_input(arguments.model.path, arguments.model.all_points()), stage);
     job.insert(job.end(), input.begin(), input.end());
-    stage.end({{"files", size_of(input.size())}});
+    stage.end({{counts::kPlan.files, size_of(input.size())}});
     const Job options = option_facts(arguments.options);
     job.insert(job.end(), options.begin(), options.end());
     if (arguments.tile_points > 0)

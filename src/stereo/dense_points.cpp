@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "io/images/find_photographs.h"
 #include "mesh/vertices.h"
 #include "picture/first_faces.h"
@@ -133,7 +134,8 @@ Counts counts_of(const std::vector<DepthMap>& maps)
         measured += num_measured(map);
         pixels += size_of(map.planes.size());
     }
-    return {{"depth maps", size_of(maps.size())}, {"pixels measured", measured}, {"of", pixels}};
+    return {{counts::kDense.maps, size_of(maps.size())},
+            {counts::kDense.measured, measured, pixels}};
 }
 
 void add_measured(const Scene& sparse, Scene& dense)
@@ -185,7 +187,7 @@ DensePoints dense_points(const Reconstruction& sparse, const std::vector<Calibra
             if (!view.problem.empty()) unreadable.push_back(view.problem);
         }
         note_unusable(unreadable, log);
-        stage.end({{"photographs", size_of(photos.size() - unreadable.size())}});
+        stage.end({{counts::kDense.photos, size_of(photos.size() - unreadable.size())}});
     }
     std::vector<DepthMap> maps(views.size());
     Stage depth(log, "depth");
@@ -197,8 +199,8 @@ DensePoints dense_points(const Reconstruction& sparse, const std::vector<Calibra
     Stage stage(log, "fuse");
     DensePoints dense;
     dense.scene = fuse(sparse.scene, {views, maps, matcher.neighbors()}, stage);
-    stage.end({{"points", size_of(dense.scene.num_points())},
-               {"pixels fused", size_of(dense.scene.num_rays())}});
+    stage.end({{counts::kDense.points, size_of(dense.scene.num_points())},
+               {counts::kDense.fused, size_of(dense.scene.num_rays())}});
     add_measured(sparse.scene, dense.scene);
     const std::size_t shown = fullest(maps);
     dense.picture = depth_picture(views[shown], maps[shown]);

@@ -1,6 +1,7 @@
 #include "texture/texture_mesh.h"
 
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "model/camera.h"
 #include "texture/charts.h"
 #include "texture/choose_photos.h"
@@ -103,9 +104,8 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
         photos_of_faces = find_photos_of_faces(mesh, photos, stage);
         const auto seen = std::ranges::count_if(
             photos_of_faces, [](const PhotosOfFace& found) { return found.count > 0; });
-        stage.end({{"photographs", size_of(photos.size())},
-                   {"faces", size_of(mesh.faces.size())},
-                   {"seen", seen}});
+        stage.end({{counts::kTexture.seen, seen, size_of(mesh.faces.size())},
+                   {counts::kTexture.photos, size_of(photos.size())}});
     }
     FaceColors colors;
     Gains gains;
@@ -118,7 +118,8 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
         gains = find_gains(photos.size(), photos_of_faces, colors);
         const std::size_t outliers = drop_outliers(gains, photos_of_faces, colors);
         const std::size_t colored = color_vertices(photos_of_faces, colors, gains, mesh);
-        stage.end({{"vertices", size_of(colored)}, {"outliers", size_of(outliers)}});
+        stage.end({{counts::kTexture.vertices, size_of(colored)},
+                   {counts::kTexture.outliers, size_of(outliers)}});
     }
     if (options.only_colors) {
         result.mesh = std::move(mesh);
@@ -140,7 +141,8 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
                                                    progress.part(0.3, 1.0)));
     result.view_of_face = views_of(photo_of_face, photos);
     result.mesh = std::move(mesh);
-    stage.end({{"charts", size_of(atlas.num_charts)}, {"pages", size_of(atlas.page_sizes.size())}});
+    stage.end({{counts::kTexture.charts, size_of(atlas.num_charts)},
+               {counts::kTexture.pages, size_of(atlas.page_sizes.size())}});
     return result;
 }
 
