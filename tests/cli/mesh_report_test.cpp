@@ -150,8 +150,8 @@ TEST(Program, ChecksTheMeshOnRequest)
     const Outcome outcome = run_program({folder / "ball", out, "--check", "-v"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err,
-                ::testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ rays from behind [^\n]*\n"
-                                         "write "));
+                ::testing::ContainsRegex("\ncheck +0 open edges [^\n]*[0-9,]+ of [0-9,]+ rays from "
+                                         "behind[^\n]*\nwrite "));
     EXPECT_THAT(run_program({folder / "ball", out, "--check"}).err,
                 ::testing::ContainsRegex("\ncheck +0 boundary edges[^\n]*\nwrote "));
 }
