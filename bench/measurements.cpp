@@ -1,5 +1,6 @@
 #include "measurements.h"
 
+#include "base/stage_counts.h"
 #include "cli/input_output.h"
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"
@@ -115,7 +116,7 @@ Run make_surface(const Sample& sample, int threads, Log& log)
         reconstruct_thinned(std::move(input.scene), input.read, {options, RunImages(), log});
     Stage stage(log, "write");
     write_ply(sample.scratch / "surface.ply", made.mesh, {});
-    stage.end({{"faces", made.mesh.faces.size()}});
+    stage.end({{counts::kOutput.faces, size_of(made.mesh.faces.size())}});
     return {size, std::move(made.scene.positions)};
 }
 

@@ -79,9 +79,9 @@ void tell(const py::object& listener, const Event& event)
 {
     if (const auto* counts = std::get_if<Counts>(&event.value)) {
         py::dict named;
-        for (const auto& [name, count] : *counts) {
-            named[py::str(name)] = count;
-        }
+        for_each_number(*counts, [&](const std::string& name, std::int64_t number) {
+            named[py::str(name)] = number;
+        });
         listener(event.kind, event.name, named);
     } else {
         listener(event.kind, event.name, std::get<double>(event.value));

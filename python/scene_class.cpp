@@ -2,6 +2,7 @@
 
 #include "arrays.h"
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "io/dense/nearest_rays.h"
 #include "io/dense/scanner_views.h"
 #include "logged_run.h"
@@ -123,7 +124,7 @@ void take_nearest_views(Scene& scene, const py::object& listener)
     run_told(listener, [&](Log& log) {
         Stage stage(log, "rays");
         tracks = nearest_rays(scene, stage);
-        stage.end({{"rays", size_of(tracks.views.size())}});
+        stage.end({{counts::kCells.rays, size_of(tracks.views.size())}});
     });
     scene.tracks = std::move(tracks);
 }

@@ -1,15 +1,59 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace vcarve {
 
-/// Named results of a stage, in display order, such as {"points", 3012}.
-using Counts = std::vector<std::pair<std::string, std::int64_t>>;
+/// A kind of count. The key identifies it among the counts of a stage. In its text, {} is the
+/// count, {of} its total, and {milli} a thousandth of it.
+struct CountKind {
+    std::string_view key;     ///< in records: "few views"
+    std::string_view text;    ///< in the log: ", {} few views"; empty: not shown
+    std::string_view meaning; ///< for people
+    bool always = false;      ///< shown even if it is 0 or there is no room
+};
+
+/// The total of a count that has none.
+inline constexpr std::int64_t kNoTotal = -1;
+
+/// A result of a stage.
+struct Count {
+    CountKind kind;             ///< what is counted
+    std::int64_t value = 0;     ///< the number
+    std::int64_t of = kNoTotal; ///< the total of which `value` is a part
+    std::string subject = {};   ///< the mesh whose faces are counted, for example; often empty
+
+    /// "faces", or "faces of SUBJECT".
+    std::string name() const
+    {
+        return std::string(kind.key) + (subject.empty() ? "" : " of " + subject);
+    }
+};
+
+/// The results of a stage, in display order.
+using Counts = std::vector<Count>;
+
+/// The count of a kind; null if there is none.
+inline const Count* find_count(const Counts& counts, const CountKind& kind)
+{
+    const auto key_of = [](const Count& count) { return count.kind.key; };
+    const auto found = std::ranges::find(counts, kind.key, key_of);
+    return found == counts.end() ? nullptr : &*found;
+}
+
+/// Calls take(name, number) as records have them: ("points", 3133), ("of points", 3243).
+template <typename Take>
+void for_each_number(const Counts& counts, const Take& take)
+{
+    for (const Count& count : counts) {
+        take(count.name(), count.value);
+        if (count.of != kNoTotal) take("of " + count.name(), count.of);
+    }
+}
 
 /// Receives the progress of a run, and can stop the run. The library prints nothing; the caller
 /// decides what to show. The default shows nothing and never stops a run.

@@ -1,5 +1,6 @@
 #include "cli/compare_outputs.h"
 
+#include "base/stage_counts.h"
 #include "cli/input_output.h"
 #include "compare/comparison_table.h"
 #include "io/files/output_file.h"
@@ -119,7 +120,7 @@ void CompareReport::write(std::span<const Comparison> comparisons, const Referen
     OutputFile file(out_);
     write_page(file.stream(), record, scene);
     file.commit();
-    stage.end({{"surfaces shown", std::ssize(scene["surfaces"])}});
+    stage.end({{counts::kOutput.surfaces, std::ssize(scene["surfaces"])}});
 }
 
 } // namespace vcarve::cli

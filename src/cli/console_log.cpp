@@ -22,82 +22,31 @@ constexpr const char* kBold = "\x1b[1m";
 constexpr const char* kPlain = "\x1b[0m";
 constexpr std::size_t kTextColumns = 55; ///< of 80; the others show name and seconds
 
-/// The text of a stage: "{points} of {of} points", with names of counts in braces, and
-/// {name/1000} for thousandths. Parts after a bar are optional: they are shown if none of their
-/// counts is 0 and there is room. A stage with an empty text is not shown.
-struct Wording {
-    std::string_view stage;
-    std::string_view text;
-};
-
-constexpr Wording kWordings[] = {
-    {"read", "{points} points, {views} views, {rays} rays"},
-    {"digest", "{files} input files"},
-    {"memory", "{MiB expected} MiB expected"},
-    {"undistort", "{photographs} photographs undistorted"},
-    {"depth", "{depth maps} depth maps"},
-    {"fuse", "{points} points fused"},
-    {"merge", "{of} points merged to {points}"},
-    {"denoise",
-     "{points moved} points moved within their error| ({thousandths of a pixel of noise/1000} px)"},
-    {"filter", "{points} of {of} points kept|, {duplicate} duplicate|, {few views} few views"
-               "|, {high error} large error|, {low angle} small angle|, {stray} stray"
-               "|, {non-finite} not finite"},
-    {"crop",
-     "{points} of {of} points in the region|, {outside but seen through it} seen through it"},
-    {"fill", "{points added} points added on planes"},
-    {"triangulate", "{cells} cells"},
-    {"rays", "{rays} rays from points to cameras| ({inferred} inferred)"},
-    {"viewpoints", "{views} viewpoints added, {rays} rays"},
-    {"carve", "{inside} of {of} cells are solid"},
-    {"cut", "{inside} of {of} cells are solid"},
-    {"surface", "{faces} visible faces|, {unseen} unseen dropped"
-                "|, {unsupported} unsupported dropped"},
-    {"clean",
-     "{faces} faces|, holes filled: {holes filled}|, components dropped: {components dropped}"},
-    {"open", ""},
-    {"adjust", "{vertices moved} vertices moved within their error"
-               "| ({thousandths of a pixel of noise/1000} px)"},
-    {"guard", ""},
-    {"smooth", "{vertices moved} of {of} vertices moved"},
-    {"decimate", "{of} faces merged to {faces}"},
-    {"simplify", "{of} faces merged to {faces}"},
-    {"orient", ""},
-    {"masks", "{faces} of {of} faces outside the masks"},
-    {"photos", "{seen} of {faces} faces shown by {photographs} photographs"},
-    {"colors", "{vertices} vertices colored|, {outliers} occluded views ignored"},
-    {"texture", "{charts} charts on {pages} pages"},
-    {"check", "{open edges} boundary edges|, {self-intersections} intersecting faces"
-              "|, {rays from behind} rays from behind"},
-    {"write", ""},
-};
-
-/// Fills counts into a part of a text. Returns nothing if a count is missing, or 0 in an optional
-/// part.
-std::optional<std::string> filled_in(std::string_view part, const Counts& counts, bool is_optional)
+/// Fills a number into a place of a text, and makes the noun after it singular if it is 1.
+void fill_in(std::string& text, std::string_view place, std::int64_t number,
+             const std::string& digits)
 {
-    constexpr std::string_view kThousandths = "/1000";
-    std::string filled;
-    for (std::size_t open = 0; (open = part.find('{')) != std::string_view::npos;) {
-        filled += part.substr(0, open);
-        const std::size_t close = part.find('}');
-        std::string_view name = part.substr(open + 1, close - open - 1);
-        const bool thousandths = name.ends_with(kThousandths);
-        if (thousandths) name.remove_suffix(kThousandths.size());
-        const auto count = std::ranges::find(counts, name, &Counts::value_type::first);
-        if (count == counts.end() || (is_optional && count->second == 0)) return std::nullopt;
-        filled += thousandths ? fmt::format("{:.2f}", static_cast<double>(count->second) / 1000.0)
-                              : grouped_digits(count->second);
-        part.remove_prefix(close + 1);
-        const std::string_view nouns =
-            part.substr(0, std::min(part.find_first_of(" ,", 1), part.size()));
-        if (count->second == 1 && nouns.starts_with(' ') && nouns.ends_with('s')) {
-            filled.pop_back();
-            filled += counted(1, nouns.substr(1));
-            part.remove_prefix(nouns.size());
-        }
+    const std::size_t at = text.find(place);
+    if (at == std::string::npos) return;
+    const std::size_t after = at + place.size();
+    const std::size_t end = std::min(text.find_first_of(" ,)", after + 1), text.size());
+    const std::string nouns = text.substr(after, end - after);
+    if (number == 1 && nouns.starts_with(' ') && nouns.ends_with('s')) {
+        text.replace(at, end - at, counted(1, nouns.substr(1)));
+    } else {
+        text.replace(at, place.size(), digits);
     }
-    return filled.append(part);
+}
+
+/// Fills in the text of a count.
+std::string text_of(const Count& count)
+{
+    std::string text(count.kind.text);
+    fill_in(text, "{}", count.value, grouped_digits(count.value));
+    fill_in(text, "{of}", count.of, grouped_digits(count.of));
+    fill_in(text, "{milli}", count.value,
+            fmt::format("{:.2f}", static_cast<double>(count.value) / 1000.0));
+    return count.subject.empty() ? text : text + " of " + count.subject;
 }
 
 std::size_t columns_of(std::FILE* stream)
@@ -129,38 +78,32 @@ std::string time_text(double seconds)
 
 } // namespace
 
-StageWords stage_words(std::string_view stage, const Counts& counts)
+std::optional<std::string> stage_words(const Counts& counts)
 {
-    const auto* const wording = std::ranges::find(kWordings, stage, &Wording::stage);
-    if (wording == std::ranges::end(kWordings)) return {counts_text(counts)};
-    StageWords words = {"", !wording->text.empty()};
-    for (std::string_view text = wording->text; !text.empty();) {
-        const std::size_t bar = std::min(text.find('|'), text.size());
-        const bool is_optional = !words.text.empty();
-        const auto part = filled_in(text.substr(0, bar), counts, is_optional);
-        if (!part && !is_optional) {
-            words.text = counts_text(counts);
-            break;
-        }
-        if (part && words.text.size() + part->size() <= kTextColumns) words.text += *part;
-        text.remove_prefix(std::min(bar + 1, text.size()));
+    if (counts.empty()) return "";
+    std::optional<std::string> words;
+    for (const Count& count : counts) {
+        const std::string text = text_of(count);
+        if (text.empty()) continue;
+        const std::string longer = words.value_or("") + text;
+        const bool fits = longer.size() <= kTextColumns;
+        if (!words || count.kind.always || (count.value != 0 && fits)) words = longer;
     }
     return words;
 }
 
 std::string counts_text(const Counts& counts)
 {
-    if (counts.empty()) return "";
-    const bool has_whole = counts.size() > 1 && counts[1].first == "of";
-    std::string text = grouped_digits(counts[0].second);
-    if (has_whole) text += " of " + grouped_digits(counts[1].second);
-    text += " " + counts[0].first;
-
+    std::string text;
     std::string others;
-    for (std::size_t i = has_whole ? 2 : 1; i < counts.size(); ++i) {
-        if (counts[i].second == 0) continue;
-        others += others.empty() ? "" : ", ";
-        others += grouped_digits(counts[i].second) + " " + counts[i].first;
+    for (const Count& count : counts) {
+        const bool is_first = text.empty();
+        if (!is_first && count.value == 0) continue;
+        std::string& part = is_first ? text : others;
+        if (!part.empty()) part += ", ";
+        part += grouped_digits(count.value);
+        if (count.of != kNoTotal) part += " of " + grouped_digits(count.of);
+        part += " " + count.name();
     }
     return others.empty() ? text : fmt::format("{} ({})", text, others);
 }
@@ -280,11 +223,11 @@ void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
 {
     const std::lock_guard lock(mutex_);
     counts_[std::string(name)] = counts;
-    const StageWords words =
-        settings_.verbose ? StageWords{counts_text(counts)} : stage_words(name, counts);
-    if (words.is_shown) {
-        print_line(control_free(fmt::format("{:<12} {:<{}} {:>8.2f} s", name, words.text,
-                                            kTextColumns, stage_seconds())));
+    const std::optional<std::string> words =
+        settings_.verbose ? counts_text(counts) : stage_words(counts);
+    if (words) {
+        print_line(control_free(
+            fmt::format("{:<12} {:<{}} {:>8.2f} s", name, *words, kTextColumns, stage_seconds())));
     }
     stage_.clear();
 }

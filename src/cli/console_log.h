@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -76,17 +77,13 @@ class ConsoleLog final : public Log {
 /// elapsed seconds while the share is small, and no bar while it is 0.
 std::string bar_line(std::string_view name, double share, double seconds, std::size_t columns);
 
-/// The text of a stage's line: "2,920 vertices moved within their error (0.27 px)".
-struct StageWords {
-    std::string text;
-    bool is_shown = true; ///< without --verbose
-};
-
-/// Describes the counts of a stage in words. Stages without a wording show all their counts.
-StageWords stage_words(std::string_view stage, const Counts& counts);
+/// Joins the texts of a stage's counts: "2,920 vertices moved within their error (0.27 px)". Texts
+/// after the first are omitted if the count is 0 or there is no room, unless they are always shown.
+/// Returns nothing for a stage whose counts have no texts: it is shown only with --verbose.
+std::optional<std::string> stage_words(const Counts& counts);
 
 /// Formats all counts: "24,310 of 25,784 points (1,102 few views, 372 high error)". The first is
-/// the result, a second one named "of" the total. Others follow in brackets unless they are 0.
+/// the result. Others follow in brackets unless they are 0.
 std::string counts_text(const Counts& counts);
 
 } // namespace vcarve::cli

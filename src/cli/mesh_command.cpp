@@ -27,7 +27,7 @@ namespace vcarve::cli {
 
 namespace {
 
-constexpr int kStatsSchema = 2; ///< version of --stats; increased if keys change
+constexpr int kStatsSchema = 3; ///< version of --stats; increased if keys change
 
 /// Reports errors in inputs and outputs before the work starts. Returns the input.
 RunInput prepared_input(MeshArguments& arguments, const std::filesystem::path& scratch, Log& log)
@@ -152,8 +152,7 @@ void run_mesh(const ParsedArguments& given)
     if (!arguments.stats.empty()) write_stats(arguments.stats, record);
     if (report) write_report(arguments.report, record, *report);
     run.end();
-    add_counts(shown.counts(), outcome);
-    shown.conclude(closing_line(outcome, arguments.options));
+    shown.conclude(closing_line(outcome_of(shown.counts(), outcome), arguments.options));
 }
 
 } // namespace vcarve::cli

@@ -1,6 +1,7 @@
 #include "cli/mesh_output.h"
 
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "io/colmap/sim3_text.h"
 #include "io/formats/mesh_file.h"
@@ -86,7 +87,8 @@ void write_surface(const MeshArguments& arguments, const Reconstruction& made,
                         "use --offset auto",
                         arguments.out.string(), share));
     }
-    stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
+    stage.end({{counts::kOutput.faces, size_of(mesh.faces.size())},
+               {counts::kOutput.vertices, size_of(mesh.positions.size())}});
 }
 
 } // namespace vcarve::cli

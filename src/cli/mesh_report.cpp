@@ -1,5 +1,6 @@
 #include "cli/mesh_report.h"
 
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "io/files/output_file.h"
 #include "mesh/check.h"
@@ -39,13 +40,12 @@ Json check_json(const MeshCheck& check)
             {"is_manifold", check.is_manifold()}};
 }
 
-/// A count of a stage; 0 if it is missing.
-std::int64_t count_of(const CountsOfStages& stages, const char* stage, std::string_view name)
+/// A count of a stage; 0 of 0 if it is missing.
+Count count_of(const CountsOfStages& stages, const char* stage, const CountKind& kind)
 {
     const auto counts = stages.find(stage);
-    if (counts == stages.end()) return 0;
-    const auto at = std::ranges::find(counts->second, name, &Counts::value_type::first);
-    return at == counts->second.end() ? 0 : at->second;
+    const Count* found = counts == stages.end() ? nullptr : find_count(counts->second, kind);
+    return found == nullptr ? Count{kind, 0, 0} : *found;
 }
 
 std::string percent(double share)
@@ -130,7 +130,7 @@ ReportParts make_report(const ReportedRun& made, Log& log)
     parts.scene["surfaces"][0] = std::move(surface);
     parts.scene["removed"] = packed_removed(made.removed);
     parts.scene["depth"] = packed_depth(made.depth, scene);
-    stage.end({{"faces shown", faces}, {"of", parts.figures.faces}});
+    stage.end({{counts::kOutput.faces_shown, faces, parts.figures.faces}});
     return parts;
 }
 
@@ -153,14 +153,12 @@ Json checked(const TriMesh& mesh, const CountsOfStages& counts, Log& log)
     Stage stage(log, "check");
     Json json = check_json(check_mesh(mesh));
     json["self_intersections"] = count_self_intersections(mesh);
-    Counts told;
-    const auto oriented = counts.find("orient");
-    if (oriented != counts.end() && oriented->second.size() > 1) {
-        const std::int64_t rays = oriented->second[1].second;
-        told = {{"rays from behind", rays - oriented->second[0].second}, {"of", rays}};
+    Counts told = {{counts::kOutput.open_edges, json["boundary_edges"]},
+                   {counts::kOutput.crossing, json["self_intersections"]}};
+    if (counts.contains("orient")) {
+        const Count outside = count_of(counts, "orient", counts::kMesh.outside);
+        told.push_back({counts::kOutput.behind, outside.of - outside.value, outside.of});
     }
-    told.emplace_back("open edges", json["boundary_edges"]);
-    told.emplace_back("self-intersections", json["self_intersections"]);
     stage.end(told);
     return json;
 }
@@ -176,28 +174,34 @@ void require_promised(const Json& surface, const std::string& command, const std
     }
 }
 
-void add_counts(const CountsOfStages& counts, RunOutcome& outcome)
-{
-    outcome.faces = count_of(counts, "write", "faces");
-    outcome.boundary_edges =
-        count_of(counts, "orient", "boundary edges") + count_of(counts, "join", "boundary edges");
-    const auto rays = static_cast<double>(count_of(counts, "open", "of"));
-    if (rays > 0.0) {
-        outcome.open = static_cast<double>(count_of(counts, "open", "rays of the views")) / rays;
-        outcome.past = static_cast<double>(count_of(counts, "open", "past")) / rays;
-    }
-    const std::int64_t in_tiles = count_of(counts, "plan", "points"); // losses are unknown
-    outcome.points = count_of(counts, "filter", "points") + in_tiles;
-    outcome.points_before = count_of(counts, "filter", "of") + in_tiles;
-    outcome.few_views = count_of(counts, "filter", "few views");
-    outcome.high_error = count_of(counts, "filter", "high error");
-    outcome.low_angle = count_of(counts, "filter", "low angle");
-    outcome.stray = count_of(counts, "filter", "stray");
-}
-
 std::int64_t bare_faces(const CountsOfStages& counts)
 {
-    return count_of(counts, "texture", "faces without photograph");
+    return count_of(counts, "texture", counts::kTexture.bare).value;
+}
+
+RunOutcome outcome_of(const CountsOfStages& counts, RunOutcome outcome)
+{
+    outcome.faces = count_of(counts, "write", counts::kOutput.faces).value;
+    outcome.boundary_edges = count_of(counts, "orient", counts::kMesh.boundary_edges).value +
+                             count_of(counts, "join", counts::kJoin.boundary_edges).value;
+    const Count open = count_of(counts, "open", counts::kMesh.open);
+    if (const auto rays = static_cast<double>(open.of); rays > 0.0) {
+        outcome.open = static_cast<double>(open.value) / rays;
+        outcome.past =
+            static_cast<double>(count_of(counts, "open", counts::kMesh.past).value) / rays;
+    }
+    const auto dropped = [&](const CountKind& kind) {
+        return count_of(counts, "filter", kind).value;
+    };
+    const Count kept = count_of(counts, "filter", counts::kFilter.points);
+    const std::int64_t in_tiles = count_of(counts, "plan", counts::kPlan.points).value;
+    outcome.points = kept.value + in_tiles; // losses in tiles are unknown
+    outcome.points_before = kept.of + in_tiles;
+    outcome.few_views = dropped(counts::kFilter.few_views);
+    outcome.high_error = dropped(counts::kFilter.high_error);
+    outcome.low_angle = dropped(counts::kFilter.low_angle);
+    outcome.stray = dropped(counts::kFilter.stray);
+    return outcome;
 }
 
 std::string closing_line(const RunOutcome& outcome, const Options& options)

@@ -58,8 +58,8 @@ struct RunOutcome {
     static constexpr double kLong = 10.0;
 };
 
-/// Fills in the counts of the stages.
-void add_counts(const CountsOfStages& counts, RunOutcome& outcome);
+/// Completes an outcome with the counts of the stages.
+RunOutcome outcome_of(const CountsOfStages& counts, RunOutcome outcome = {});
 
 /// The number of faces without a photograph of a textured mesh.
 std::int64_t bare_faces(const CountsOfStages& counts);

@@ -1,5 +1,6 @@
 #include "cli/picture_output.h"
 
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "io/formats/textured_files.h"
 #include "picture/eye.h"
@@ -79,7 +80,7 @@ void PreviewOutput::add(const std::string& name, const TriMesh& mesh, const Text
     Stage stage(log, "preview");
     const std::int64_t pixels = preview_->add(name, mesh, texture);
     is_empty_ = false;
-    stage.end({{"pixels of " + name, pixels}});
+    stage.end({{counts::kOutput.pixels, pixels, kNoTotal, name}});
 }
 
 void PreviewOutput::write()

@@ -17,11 +17,7 @@ namespace {
 Json counts_json(const Counts& counts)
 {
     Json json = Json::object();
-    std::string before;
-    for (const auto& [name, count] : counts) {
-        json[name == "of" ? "of " + before : name] = count;
-        before = name;
-    }
+    for_each_number(counts, [&](const std::string& name, std::int64_t n) { json[name] = n; });
     return json;
 }
 

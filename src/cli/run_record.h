@@ -45,7 +45,7 @@ class StageRecorder final : public Log {
 
     /// {"stages": [{"name", "seconds", "cpu_seconds", "peak_memory_bytes", "counts"}], "notes": [],
     /// "total": {"seconds", "cpu_seconds", "peak_memory_bytes"}, "peak_memory_is_per_stage"}.
-    /// A count named "of" is recorded as "of NAME", with the name of the count before it.
+    /// The keys of counts are those of base/stage_counts.h; the total of KEY is "of KEY".
     Json json() const;
 
   private:

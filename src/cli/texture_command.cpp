@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "base/version.h"
@@ -141,7 +142,8 @@ void run_texture(const ParsedArguments& given)
                    {.comments = {"made by colmap-vcarve " + versions().program},
                     .texture = &made.texture,
                     .up = made.up});
-        stage.end({{"faces", made.mesh.faces.size()}, {"vertices", made.mesh.positions.size()}});
+        stage.end({{counts::kOutput.faces, size_of(made.mesh.faces.size())},
+                   {counts::kOutput.vertices, size_of(made.mesh.positions.size())}});
     }
     preview.add(command.out.filename().string(), made.mesh, made.texture, log);
     preview.write();

@@ -1,6 +1,7 @@
 #include "compare/compare.h"
 
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "compare/comparison_table.h"
 #include "compare/evidence.h"
 #include "options/declared.h"
@@ -37,8 +38,8 @@ Reference complete_reference(Scene model, const NamedMesh* truth, const CompareO
     Stage stage(log, "reference");
     Reference reference = make_reference(model, truth, options);
     const std::size_t samples = reference.truth ? reference.truth->samples.size() : 0;
-    stage.end({{"points", size_of(reference.scene.num_points())},
-               {"samples of the truth", size_of(samples)}});
+    stage.end({{counts::kCompare.points, size_of(reference.scene.num_points())},
+               {counts::kCompare.samples, size_of(samples)}});
     add_closed_surface(reference, std::move(model), log);
     return reference;
 }
@@ -53,7 +54,7 @@ Comparison compare_mesh(const NamedMesh& named, const Reference& reference, Log&
     comparison.genus = genus(comparison.size);
     comparison.evidence = measure_against_views(mesh, reference);
     if (reference.truth) comparison.truth = measure_against_truth(mesh, reference);
-    stage.end({{"faces of " + named.name, comparison.size.faces}});
+    stage.end({{counts::kCompare.faces, comparison.size.faces, kNoTotal, named.name}});
     return comparison;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/numbers.h"
 #include "base/parallel.h"
+#include "base/stage_counts.h"
 #include "base/statistics.h"
 #include "compare/reference.h"
 #include "geometry/triangle.h"
@@ -219,7 +220,7 @@ void add_closed_surface(Reference& reference, Scene model, Log& log)
     } catch (const InputError& error) {
         log.note(fmt::format("no closed surface to measure against: {}", error.what()));
     }
-    stage.end({{"faces of the closed surface", faces}});
+    stage.end({{counts::kCompare.closed, faces}});
 }
 
 } // namespace vcarve

@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "page/run_figures.h"
 
 #include <fmt/format.h>
@@ -26,29 +27,37 @@ Json counts_of(const Json& record, const char* name)
     return Json::object();
 }
 
-/// A reason for dropped points: the name of its count, and the text of its warning.
+/// The key of the total of a count.
+std::string key_of_total(const CountKind& kind)
+{
+    return "of " + std::string(kind.key);
+}
+
+/// A reason for dropped points, and the text of its warning.
 struct Reason {
-    const char* count;
+    const CountKind& count;
     const char* option; ///< option that sets the limit; empty: none
     const char* means;
 };
 
 constexpr Reason kReasons[] = {
-    {"non-finite", "", "have non-finite coordinates"},
-    {"duplicate", "", "coincide with another point and were merged with it"},
-    {"few views", "min-views", "too few views see them"},
-    {"high error", "max-error", "their reprojection errors are too large"},
-    {"low angle", "min-angle", "the angle between their rays is too small to fix their depth"},
-    {"stray", "stray-spacing", "at most two views see them, and no other points are near"},
+    {counts::kFilter.non_finite, "", "have non-finite coordinates"},
+    {counts::kFilter.duplicate, "", "coincide with another point and were merged with it"},
+    {counts::kFilter.few_views, "min-views", "too few views see them"},
+    {counts::kFilter.high_error, "max-error", "their reprojection errors are too large"},
+    {counts::kFilter.low_angle, "min-angle",
+     "the angle between their rays is too small to fix their depth"},
+    {counts::kFilter.stray, "stray-spacing",
+     "at most two views see them, and no other points are near"},
 };
 
 void warn_of_dropped_points(std::vector<std::string>& warnings, const Json& record)
 {
     constexpr double kMany = 0.2;
     const Json counts = counts_of(record, "filter");
-    const double all = counts.value("of points", 0.0);
+    const double all = counts.value(key_of_total(counts::kFilter.points), 0.0);
     for (const Reason& reason : kReasons) {
-        const double dropped = counts.value(reason.count, 0.0);
+        const double dropped = counts.value(reason.count.key, 0.0);
         if (all == 0.0 || dropped / all < kMany) continue;
         const std::string share = percent(dropped / all);
         if (reason.option[0] == '\0') {
@@ -101,9 +110,9 @@ void warn_of_orientation(std::vector<std::string>& warnings, const Json& record)
 {
     constexpr double kFew = 0.9;
     const Json counts = counts_of(record, "orient");
-    const double all = counts.value("of rays on the outside", 0.0);
+    const double all = counts.value(key_of_total(counts::kMesh.outside), 0.0);
     if (all == 0.0) return;
-    const double outside = counts.value("rays on the outside", 0.0) / all;
+    const double outside = counts.value(counts::kMesh.outside.key, 0.0) / all;
     if (outside < kFew) {
         warnings.push_back(
             fmt::format("{} of the rays hit the surface from behind.", percent(1.0 - outside)));

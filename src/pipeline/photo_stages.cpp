@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "base/text.h"
 #include "io/images/find_photographs.h"
 #include "model/camera.h"
@@ -59,7 +60,7 @@ Counts undistort(RunState& run, const Progress& progress)
         if (!view.problem.empty()) unreadable.push_back(view.problem);
     }
     note_unusable(unreadable, run.log);
-    return {{"photographs", size_of(run.photos.size() - unreadable.size())}};
+    return {{counts::kDense.photos, size_of(run.photos.size() - unreadable.size())}};
 }
 
 Counts match(RunState& run, const Progress& progress)
@@ -71,9 +72,8 @@ Counts match(RunState& run, const Progress& progress)
         measured += num_measured(map);
         pixels += size_of(map.planes.size());
     }
-    return {{"depth maps", size_of(run.stereo.maps.size())},
-            {"pixels measured", measured},
-            {"of", pixels}};
+    return {{counts::kDense.maps, size_of(run.stereo.maps.size())},
+            {counts::kDense.measured, measured, pixels}};
 }
 
 Counts fuse(RunState& run, const Progress& progress)
@@ -81,12 +81,12 @@ Counts fuse(RunState& run, const Progress& progress)
     const Scene& sparse = run.points.scene;
     const auto& [views, neighbors, maps] = run.stereo;
     run.dense = vcarve::fuse(sparse, {views, maps, neighbors}, progress);
-    const Counts counts = {{"points", size_of(run.dense.num_points())},
-                           {"pixels fused", size_of(run.dense.num_rays())}};
+    const Counts fused = {{counts::kDense.points, size_of(run.dense.num_points())},
+                          {counts::kDense.fused, size_of(run.dense.num_rays())}};
     add_measured(sparse, run.dense);
     const std::size_t shown = fullest(maps);
     run.depth = depth_picture(views[shown], maps[shown]);
-    return counts;
+    return fused;
 }
 
 Counts remove_masked(RunState& run, const Progress& progress)
@@ -100,9 +100,8 @@ Counts remove_masked(RunState& run, const Progress& progress)
                                      "excluded, so the masks may need to be inverted",
                                      masks.folder.string()));
     }
-    return {{"masks", size_of(masks.of_view.size() - masks.missing)},
-            {"faces", size_of(run.surface.faces.size())},
-            {"of", before}};
+    return {{counts::kTexture.masks, size_of(masks.of_view.size() - masks.missing)},
+            {counts::kTexture.unmasked, size_of(run.surface.faces.size()), before}};
 }
 
 Counts find_photos(RunState& run, const Progress& progress)
@@ -111,9 +110,8 @@ Counts find_photos(RunState& run, const Progress& progress)
     run.shown.of_faces = find_photos_of_faces(run.surface, run.photos, progress);
     const auto seen = std::ranges::count_if(
         run.shown.of_faces, [](const PhotosOfFace& found) { return found.count > 0; });
-    return {{"photographs", size_of(run.photos.size())},
-            {"faces", size_of(run.surface.faces.size())},
-            {"seen", seen}};
+    return {{counts::kTexture.seen, seen, size_of(run.surface.faces.size())},
+            {counts::kTexture.photos, size_of(run.photos.size())}};
 }
 
 Counts color(RunState& run, const Progress& progress)
@@ -122,7 +120,8 @@ Counts color(RunState& run, const Progress& progress)
     const ColoredVertices colored =
         color_mesh(run.surface, run.photos, limits.photos_at_a_time, run.shown, progress);
     note_unusable(run.shown.problems, run.log);
-    return {{"vertices", size_of(colored.vertices)}, {"outliers", size_of(colored.outliers)}};
+    return {{counts::kTexture.vertices, size_of(colored.vertices)},
+            {counts::kTexture.outliers, size_of(colored.outliers)}};
 }
 
 Counts paint(RunState& run, const Progress& progress)
@@ -136,9 +135,9 @@ Counts paint(RunState& run, const Progress& progress)
     }
     const auto bare = std::ranges::count(painted.view_of_face, -1);
     run.texture = std::move(painted.texture);
-    return {{"charts", size_of(painted.charts)},
-            {"pages", size_of(run.texture.pages.size())},
-            {"faces without photograph", bare}};
+    return {{counts::kTexture.charts, size_of(painted.charts)},
+            {counts::kTexture.pages, size_of(run.texture.pages.size())},
+            {counts::kTexture.bare, bare}};
 }
 
 } // namespace vcarve::stage_runs

@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "base/statistics.h"
 #include "base/text.h"
 #include "mesh/collapse_edges.h"
@@ -47,9 +48,8 @@ Counts cut_by(VisibilityEnergy energy, RunState& run, const Progress& progress)
     CutCells made =
         cut_cells(run.cells, run.points.scene, std::move(energy), run.options().labels, progress);
     run.labels = std::move(made.labels);
-    return {{"inside", made.inside},
-            {"of", size_of(run.cells.cells.size())},
-            {"faces of the hull", made.on_hull}};
+    return {{counts::kCells.inside, made.inside, size_of(run.cells.cells.size())},
+            {counts::kCells.on_hull, made.on_hull}};
 }
 
 /// Adds the votes of rays to the energy.
@@ -100,7 +100,7 @@ Counts predict_memory(RunState& run, const Progress& /*progress*/)
 {
     const int threads = tbb::this_task_arena::max_concurrency();
     require_memory(run.size, threads, run.options().memory.limit);
-    return {{"MiB expected", (predicted_peak(run.size, threads) >> 20) + 1}};
+    return {{counts::kPlan.memory, (predicted_peak(run.size, threads) >> 20) + 1}};
 }
 
 Counts thin(RunState& run, const Progress& progress)
@@ -108,7 +108,7 @@ Counts thin(RunState& run, const Progress& progress)
     Scene& scene = run.points.scene;
     const std::int64_t before = size_of(scene.num_points());
     scene = thin_points(scene, run.options().thin, progress);
-    return {{"points", size_of(scene.num_points())}, {"of", before}};
+    return {{counts::kMerge.points, size_of(scene.num_points()), before}};
 }
 
 Counts filter(RunState& run, const Progress& progress)
@@ -137,17 +137,20 @@ Counts filter(RunState& run, const Progress& progress)
             "apart, or try a larger --min-angle",
             angle_deg));
     }
-    return {{"points", size_of(scene.num_points())}, {"of", before},
-            {"non-finite", dropped.non_finite},      {"duplicate", dropped.duplicate},
-            {"few views", dropped.few_views},        {"high error", dropped.high_error},
-            {"low angle", dropped.low_angle},        {"stray", stray}};
+    return {{counts::kFilter.points, size_of(scene.num_points()), before},
+            {counts::kFilter.duplicate, dropped.duplicate},
+            {counts::kFilter.few_views, dropped.few_views},
+            {counts::kFilter.high_error, dropped.high_error},
+            {counts::kFilter.low_angle, dropped.low_angle},
+            {counts::kFilter.stray, stray},
+            {counts::kFilter.non_finite, dropped.non_finite}};
 }
 
 Counts add_points(RunState& run, const Progress& progress)
 {
     const AddedPoints report =
         vcarve::add_points(run.points.scene, run.options().added_points, progress, &run.usual);
-    return {{"points added", report.added}, {"planar regions", report.regions}};
+    return {{counts::kPoints.added, report.added}, {counts::kPoints.regions, report.regions}};
 }
 
 /// Crops to the region; Kind::looked_at is measured before points are dropped.
@@ -160,18 +163,16 @@ Counts crop(RunState& run, const Progress& progress)
     run.region = make_region(choice, scene.offset, of_interest);
     CroppedPoints cropped = crop_points(std::move(scene), *run.region, progress);
     scene = std::move(cropped.scene);
-    return {{"points", cropped.inside},
-            {"of", before},
-            {"outside but seen through it", cropped.witnesses}};
+    return {{counts::kPoints.inside, cropped.inside, before},
+            {counts::kPoints.witnesses, cropped.witnesses}};
 }
 
 Counts denoise(RunState& run, const Progress& progress)
 {
     Scene& scene = run.points.scene;
     const DenoiseReport report = denoise_points(scene, run.options().denoise, progress, &run.usual);
-    return {{"points moved", report.moved},
-            {"of", size_of(scene.num_points())},
-            {"thousandths of a pixel of noise", thousandths(report.noise_px)}};
+    return {{counts::kDenoise.points, report.moved, size_of(scene.num_points())},
+            {counts::kDenoise.noise, thousandths(report.noise_px)}};
 }
 
 Counts triangulate(RunState& run, const Progress& progress)
@@ -179,7 +180,7 @@ Counts triangulate(RunState& run, const Progress& progress)
     const Scene& scene = run.points.scene;
     const int threads = tbb::this_task_arena::max_concurrency();
     run.cells = vcarve::triangulate(scene, progress, most_cells(run.size, threads));
-    return {{"cells", size_of(run.cells.cells.size())}};
+    return {{counts::kCells.all, size_of(run.cells.cells.size())}};
 }
 
 Counts walk_rays(RunState& run, const Progress& progress)
@@ -194,7 +195,7 @@ Counts walk_rays(RunState& run, const Progress& progress)
         cast(photographs(scene), run, progress.part(0.0, infers ? 0.5 : 1.0));
         if (infers) inferred = walk_inferred(run, weight, progress.part(0.5, 1.0));
     }
-    return {{"rays", size_of(scene.num_rays())}, {"inferred", inferred}};
+    return {{counts::kCells.rays, size_of(scene.num_rays())}, {counts::kCells.inferred, inferred}};
 }
 
 Counts place_virtual_views(RunState& run, const Progress& progress)
@@ -202,7 +203,8 @@ Counts place_virtual_views(RunState& run, const Progress& progress)
     VirtualRays& rays = run.virtual_rays;
     rays = find_virtual_rays(run.cells, run.points.scene, run.labels,
                              run.options().labels.virtual_views, progress);
-    return {{"views", size_of(rays.centers.size())}, {"rays", size_of(rays.tracks.views.size())}};
+    return {{counts::kViewpoints.views, size_of(rays.centers.size())},
+            {counts::kViewpoints.rays, size_of(rays.tracks.views.size())}};
 }
 
 Counts walk_virtual_rays(RunState& run, const Progress& progress)
@@ -215,7 +217,7 @@ Counts walk_virtual_rays(RunState& run, const Progress& progress)
     } else {
         cast(source, run, progress);
     }
-    return {{"rays", size_of(rays.tracks.views.size())}};
+    return {{counts::kCells.rays, size_of(rays.tracks.views.size())}};
 }
 
 Counts cut_first(RunState& run, const Progress& progress)
@@ -232,8 +234,8 @@ Counts carve_first(RunState& run, const Progress& /*progress*/)
 {
     const int min_crossings = run.options().labels.min_crossings;
     run.labels = vcarve::carve(run.cells, run.evidence.crossings, min_crossings);
-    return {{"inside", std::ranges::count(run.labels, Label::inside)},
-            {"of", size_of(run.cells.cells.size())}};
+    return {{counts::kCells.inside, std::ranges::count(run.labels, Label::inside),
+             size_of(run.cells.cells.size())}};
 }
 
 Counts carve(RunState& run, const Progress& progress)
@@ -250,11 +252,11 @@ Counts surface(RunState& run, const Progress& progress)
                                 &run.usual, !run.size.is_tile},
                                run.options().surface, progress);
     const CarvedCounts& left_out = run.carved.counts;
-    Counts counts = {{"faces", size_of(run.carved.faces.faces.size())},
-                     {"unseen", left_out.unseen},
-                     {"unsupported", left_out.closing},
-                     {"trimmed", left_out.trimmed}};
-    if (run.region) counts.emplace_back("outside the region", left_out.out_of_region);
+    Counts counts = {{counts::kSurface.faces, size_of(run.carved.faces.faces.size())},
+                     {counts::kSurface.unseen, left_out.unseen},
+                     {counts::kSurface.unsupported, left_out.closing},
+                     {counts::kSurface.trimmed, left_out.trimmed}};
+    if (run.region) counts.push_back({counts::kSurface.outside, left_out.out_of_region});
     return counts;
 }
 
@@ -267,12 +269,12 @@ Counts clean(RunState& run, const Progress& /*progress*/)
     Removals(run.wants_removed ? &run.carved.removed : nullptr)
         .add_deleted(*run.mesh, run.first_filled);
     const CleanupCounts& counts = cleaned.counts;
-    return {{"vertices", counts.vertices},
-            {"faces", counts.faces},
-            {"split edges", counts.split_edges},
-            {"split vertices", counts.split_vertices},
-            {"components dropped", counts.removed_components},
-            {"holes filled", counts.filled_holes}};
+    return {{counts::kMesh.vertices, counts.vertices},
+            {counts::kMesh.faces, counts.faces},
+            {counts::kMesh.split_edges, counts.split_edges},
+            {counts::kMesh.split_vertices, counts.split_vertices},
+            {counts::kMesh.holes, counts.filled_holes},
+            {counts::kMesh.components, counts.removed_components}};
 }
 
 /// Counts rays through open boundaries; filled holes are not open.
@@ -283,17 +285,16 @@ Counts count_open(RunState& run, const Progress& /*progress*/)
     for (std::size_t i = run.first_filled; i < run.mesh->n_faces(); ++i) {
         filled.push_back(run.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));
     }
-    return {{"rays of the views", count_free(open, filled)}, {"of", rays}, {"past", past}};
+    return {{counts::kMesh.open, count_free(open, filled), rays}, {counts::kMesh.past, past}};
 }
 
 Counts denoise_vertices(RunState& run, const Progress& progress)
 {
     const DenoiseVerticesCounts counts =
         denoise_vertices(*run.mesh, run.points.scene, run.options().denoise, progress, &run.usual);
-    return {{"vertices moved", counts.moved},
-            {"of", counts.vertices},
-            {"held back", counts.held},
-            {"thousandths of a pixel of noise", thousandths(counts.noise_px)}};
+    return {{counts::kDenoise.vertices, counts.moved, counts.vertices},
+            {counts::kDenoise.held, counts.held},
+            {counts::kDenoise.noise, thousandths(counts.noise_px)}};
 }
 
 /// Collapses edges, and then splits non-manifold edges and vertices as clean() does.
@@ -316,21 +317,22 @@ Counts decimate(RunState& run, const Progress& /*progress*/)
     dropped += drop_small_components(mesh, small);
     CleanSurface cleaned = clean_surface(std::move(mesh), kOnlySplit);
     run.mesh = std::move(cleaned.mesh);
-    return {{"faces", cleaned.counts.faces}, {"of", before}, {"components dropped", dropped}};
+    return {{counts::kMerge.faces, cleaned.counts.faces, before},
+            {counts::kMerge.components, dropped}};
 }
 
 Counts guard_rays(RunState& run, const Progress& progress)
 {
     run.guard.emplace(run.points.scene, *run.mesh, progress);
-    return {{"rays", run.guard->num_rays()}};
+    return {{counts::kSmooth.rays, run.guard->num_rays()}};
 }
 
 Counts smooth(RunState& run, const Progress& progress)
 {
     const SmoothCounts counts =
         smooth_surface(*run.mesh, *run.guard, run.options().refine.smooth, progress);
-    return {
-        {"vertices moved", counts.moved}, {"of", counts.vertices}, {"held by rays", counts.held}};
+    return {{counts::kSmooth.moved, counts.moved, counts.vertices},
+            {counts::kSmooth.held, counts.held}};
 }
 
 Counts simplify(RunState& run, const Progress& progress)
@@ -343,16 +345,15 @@ Counts simplify(RunState& run, const Progress& progress)
                                         counted(counts.faces, "faces"),
                                         grouped_digits(options.faces)));
     }
-    return {{"faces", counts.faces}, {"of", counts.faces_before}};
+    return {{counts::kMerge.faces, counts.faces, counts.faces_before}};
 }
 
 Counts orient(RunState& run, const Progress& /*progress*/)
 {
     const ViewAgreement agreement = view_agreement(*run.mesh, run.points.scene);
     run.surface = tri_mesh(*run.mesh);
-    return {{"rays on the outside", agreement.facing},
-            {"of", agreement.rays},
-            {"boundary edges", num_boundary_edges(*run.mesh)}};
+    return {{counts::kMesh.outside, agreement.facing, agreement.rays},
+            {counts::kMesh.boundary_edges, num_boundary_edges(*run.mesh)}};
 }
 
 } // namespace vcarve::stage_runs

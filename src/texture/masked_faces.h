@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "io/images/find_photographs.h"
 #include "io/images/calibrated_photo.h"
+#include "io/images/find_photographs.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 

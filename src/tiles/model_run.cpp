@@ -1,5 +1,6 @@
 #include "tiles/model_run.h"
 
+#include "base/stage_counts.h"
 #include "base/threads.h"
 #include "io/dense/visibility.h"
 #include "run/job.h"
@@ -91,7 +92,7 @@ Job ModelRun::job() const
             add(image_facts("mask", *input_.images.masks, progress.part(0.9, 1.0)));
         }
     }
-    stage.end({{"files", size_of(job.size() - 1)}});
+    stage.end({{counts::kPlan.files, size_of(job.size() - 1)}});
     add(option_facts(options_));
     if (plan_.tile_points > 0) {
         job.push_back({"--tile-points", std::to_string(plan_.tile_points)});

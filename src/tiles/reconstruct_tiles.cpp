@@ -1,6 +1,7 @@
 #include "tiles/reconstruct_tiles.h"
 
 #include "base/free_memory.h"
+#include "base/stage_counts.h"
 #include "model/extent.h"
 #include "model/scene_points.h"
 #include "steps/1_points/arrange.h"
@@ -73,7 +74,8 @@ void TiledRun::plan(const PointSample& sample, const ReadPoints& read, std::size
         usual_.points_of_witness = static_cast<double>(points_of_witness(sample.points));
         folder_.save(kPlan, frame_, tiling_, usual_, num_read_, num_parts_);
     }
-    stage.end({{"tiles", size_of(tiling_.size())}, {"points", size_of(sample.points)}});
+    stage.end({{counts::kPlan.tiles, size_of(tiling_.size())},
+               {counts::kPlan.points, size_of(sample.points)}});
 }
 
 /// Writes the points of each tile.
@@ -253,7 +255,7 @@ bool TiledRun::work(const char* stage_name, File file)
             if (others == 0) break;
             if (made == 0 && !waits(stage)) return false;
         }
-        stage.end({{"tiles", size_of(all_made)}, {"of", size_of(tiling_.size())}});
+        stage.end({{counts::kTileFiles.made, size_of(all_made), size_of(tiling_.size())}});
         return true;
     });
 }
@@ -266,7 +268,7 @@ bool TiledRun::help()
             if (!waits(stage)) return !folder_.leads();
         }
         load_plan();
-        stage.end({{"tiles", size_of(tiling_.size())}});
+        stage.end({{counts::kPlan.tiles, size_of(tiling_.size())}});
         if (!work("points", File::points) || !work("surfaces", File::surface))
             return !folder_.leads();
         Stage joining(log_, "wait");
@@ -300,12 +302,12 @@ TriMesh TiledRun::make()
                          "dense points");
     }
     joined.mesh.offset = frame_.offset;
-    stage.end({{"faces", size_of(joined.mesh.faces.size())},
-               {"boundary edges", joined.boundary_edges},
-               {"seam edges", joined.seams.edges},
-               {"open", joined.seams.open},
-               {"holes filled", joined.seams.filled},
-               {"vertices split", joined.seams.vertices}});
+    stage.end({{counts::kJoin.faces, size_of(joined.mesh.faces.size())},
+               {counts::kJoin.boundary_edges, joined.boundary_edges},
+               {counts::kJoin.seam_edges, joined.seams.edges},
+               {counts::kJoin.open, joined.seams.open},
+               {counts::kJoin.holes, joined.seams.filled},
+               {counts::kJoin.split, joined.seams.vertices}});
     return std::move(joined.mesh);
 }
 

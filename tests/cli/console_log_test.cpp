@@ -1,4 +1,5 @@
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "cli/console_log.h"
 
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -63,7 +65,7 @@ TEST(ConsoleLog, PrintsOneLinePerStageAndNotesImmediately)
         ConsoleLog log({.stream = screen.stream()});
         Stage stage(log, "read");
         log.note("images.txt is ignored.");
-        stage.end({{"points", 12}});
+        stage.end({{counts::kRead.points, 12}});
     }
     EXPECT_THAT(screen.text(),
                 MatchesRegex("note: images.txt is ignored.\nread +12 points +[0-9.]+ s\n"));
@@ -76,7 +78,7 @@ TEST(ConsoleLog, RemovesControlCharactersFromNames)
         ConsoleLog log({.stream = screen.stream(), .verbose = true});
         Stage stage(log, "read");
         log.note("of \x1b[2J.ply");
-        stage.end({{"points of \x1b[2J.ply", 12}});
+        stage.end({{counts::kRead.points, 12, kNoTotal, "\x1b[2J.ply"}});
     }
     EXPECT_THAT(screen.text(), MatchesRegex("note: of .\\[2J.ply\nread +12 points of .\\[2J.ply "
                                             "+[0-9.]+ s\n"));
@@ -91,7 +93,7 @@ TEST(ConsoleLog, IgnoresWriteErrors)
     Stage stage(log, "read");
     std::this_thread::sleep_for(std::chrono::milliseconds(150)); // a bar is drawn
     log.note("nobody reads this");
-    stage.end({{"points", 7}});
+    stage.end({{counts::kRead.points, 7}});
     log.conclude("nor this");
 }
 
@@ -104,20 +106,20 @@ TEST(ConsoleLog, ShowsABarUntilTheStageEnds)
     while (screen.text().find(" 50 %") == std::string::npos) {
         std::this_thread::yield();
     }
-    stage.end({{"cells", 1}});
+    stage.end({{counts::kCells.all, 1}});
     EXPECT_THAT(screen.text(),
-                MatchesRegex("(.|\n)* 50 %  about 1 s left\r\x1b\\[Kcut +1 cells +[0-9.]+ s\n"));
+                MatchesRegex("(.|\n)* 50 %  about 1 s left\r\x1b\\[Kcut +1 cell +[0-9.]+ s\n"));
 }
 
 TEST(ConsoleLog, KeepsCountsAndPrintsNothingWhenQuiet)
 {
     const Screen screen;
     ConsoleLog log({.stream = screen.stream(), .quiet = true});
-    Stage(log, "read").end({{"points", 12}});
+    Stage(log, "read").end({{counts::kRead.points, 12}});
     log.note("a note");
     log.conclude("done");
     EXPECT_EQ(screen.text(), "");
-    EXPECT_EQ(log.counts().at("read"), (Counts{{"points", 12}}));
+    EXPECT_EQ(find_count(log.counts().at("read"), counts::kRead.points)->value, 12);
 }
 
 TEST(ConsoleLog, PrintsTheConclusionInBoldOnRequest)
@@ -132,59 +134,76 @@ TEST(ConsoleLog, PrintsTheConclusionInBoldOnRequest)
 
 TEST(CountsText, ShowsResultThenTotalThenOtherCounts)
 {
-    EXPECT_EQ(
-        counts_text({{"points", 24310}, {"of", 25784}, {"few views", 1102}, {"high error", 372}}),
-        "24,310 of 25,784 points (1,102 few views, 372 high error)");
-    EXPECT_EQ(counts_text({{"cells", 1000000}, {"vertices", 999}}),
-              "1,000,000 cells (999 vertices)");
-    EXPECT_EQ(counts_text({{"faces", 0}}), "0 faces");
+    EXPECT_EQ(counts_text({{counts::kFilter.points, 24310, 25784},
+                           {counts::kFilter.few_views, 1102},
+                           {counts::kFilter.high_error, 372}}),
+              "24,310 of 25,784 points (1,102 few views, 372 high error)");
+    EXPECT_EQ(counts_text({{counts::kDense.maps, 2}, {counts::kDense.measured, 1000000, 1000001}}),
+              "2 depth maps (1,000,000 of 1,000,001 pixels measured)");
+    EXPECT_EQ(counts_text({{counts::kOutput.faces, 0}, {counts::kOutput.vertices, 0}}), "0 faces");
     EXPECT_EQ(counts_text({}), "");
 }
 
 TEST(CountsText, GroupsDigitsOfNegativeNumbers)
 {
-    EXPECT_EQ(counts_text({{"a", -123}, {"b", -1234}, {"c", -123456}}),
-              "-123 a (-1,234 b, -123,456 c)");
+    const CountKind kind = {"a", "", ""};
+    EXPECT_EQ(counts_text({{kind, -123}, {kind, -1234}, {kind, -123456}}),
+              "-123 a (-1,234 a, -123,456 a)");
 }
 
 TEST(StageWords, DescribeCountsInTermsOfTheField)
 {
-    const StageWords cut = stage_words("cut", {{"inside", 11283}, {"of", 22611}, {"needles", 2}});
-    EXPECT_EQ(cut.text, "11,283 of 22,611 cells are solid");
-    EXPECT_TRUE(cut.is_shown);
-    const StageWords adjust =
-        stage_words("adjust", {{"vertices moved", 2920}, {"thousandths of a pixel of noise", 272}});
-    EXPECT_EQ(adjust.text, "2,920 vertices moved within their error (0.27 px)");
+    EXPECT_EQ(stage_words({{counts::kCells.inside, 11283, 22611}, {counts::kCells.on_hull, 2}}),
+              "11,283 of 22,611 cells are solid");
+    EXPECT_EQ(stage_words({{counts::kDenoise.vertices, 2920, 3612},
+                           {counts::kDenoise.held, 196},
+                           {counts::kDenoise.noise, 272}}),
+              "2,920 vertices moved within their error (0.27 px)");
+    EXPECT_EQ(stage_words({{counts::kMerge.faces, 775, 16927}, {counts::kMerge.components, 3}}),
+              "16,927 faces merged to 775");
+}
+
+TEST(StageWords, NameTheSubject)
+{
+    EXPECT_EQ(stage_words({{counts::kCompare.faces, 1, kNoTotal, "a.ply"}}), "1 face of a.ply");
+    EXPECT_EQ(stage_words({{counts::kCompare.faces, 12, kNoTotal, "{}.ply"}}),
+              "12 faces of {}.ply");
 }
 
 TEST(StageWords, UsesTheSingularForOne)
 {
-    EXPECT_EQ(stage_words("texture", {{"charts", 1}, {"pages", 1}}).text, "1 chart on 1 page");
-    EXPECT_EQ(stage_words("read", {{"points", 1143}, {"views", 1}, {"rays", 0}}).text,
-              "1,143 points, 1 view, 0 rays");
+    EXPECT_EQ(stage_words({{counts::kTexture.charts, 1}, {counts::kTexture.pages, 1}}),
+              "1 chart on 1 page");
+    EXPECT_EQ(stage_words({{counts::kPlan.tiles, 1}, {counts::kPlan.points, 1}}),
+              "1 tile (1 point)");
 }
 
-TEST(StageWords, OmitZeroCountsAndPartsWithoutRoom)
+TEST(StageWords, OmitZeroCountsAndTextsWithoutRoom)
 {
-    Counts counts = {{"points", 3133}, {"of", 3243}, {"duplicate", 110}, {"few views", 0}};
-    EXPECT_EQ(stage_words("filter", counts).text, "3,133 of 3,243 points kept, 110 duplicate");
-    counts = {{"points", 1234567},    {"of", 2345678},       {"duplicate", 100000},
-              {"few views", 1000000}, {"high error", 10000}, {"low angle", 5}};
-    EXPECT_EQ(stage_words("filter", counts).text,
-              "1,234,567 of 2,345,678 points kept, 100,000 duplicate");
+    Counts filtered = {{counts::kFilter.points, 3133, 3243},
+                       {counts::kFilter.duplicate, 110},
+                       {counts::kFilter.few_views, 0}};
+    EXPECT_EQ(stage_words(filtered), "3,133 of 3,243 points kept, 110 duplicate");
+    filtered = {{counts::kFilter.points, 1234567, 2345678},
+                {counts::kFilter.duplicate, 100000},
+                {counts::kFilter.few_views, 1000000},
+                {counts::kFilter.high_error, 10000},
+                {counts::kFilter.low_angle, 5}};
+    EXPECT_EQ(stage_words(filtered), "1,234,567 of 2,345,678 points kept, 100,000 duplicate");
 }
 
-TEST(StageWords, AreHiddenIfTheTextIsEmpty)
+TEST(StageWords, ShowTheFirstTextAndRequiredTextsAlways)
 {
-    const StageWords open = stage_words("open", {{"rays of the views", 1}, {"of", 3960}});
-    EXPECT_FALSE(open.is_shown);
+    EXPECT_EQ(
+        stage_words({{counts::kRead.points, 0}, {counts::kRead.views, 1}, {counts::kRead.rays, 0}}),
+        "0 points, 1 view, 0 rays");
 }
 
-TEST(StageWords, ShowAllCountsOfAnUnknownStage)
+TEST(StageWords, AreMissingForAStageWithoutTexts)
 {
-    const StageWords words = stage_words("measure", {{"faces of a.ply", 12}, {"of", 13}});
-    EXPECT_EQ(words.text, "12 of 13 faces of a.ply");
-    EXPECT_EQ(stage_words("cut", {{"insides", 3}}).text, "3 insides");
+    EXPECT_EQ(stage_words({{counts::kMesh.open, 1, 3960}, {counts::kMesh.past, 561}}),
+              std::nullopt);
+    EXPECT_EQ(stage_words({}), "");
 }
 
 } // namespace

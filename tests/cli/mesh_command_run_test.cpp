@@ -198,7 +198,7 @@ TEST_F(ProgramOnBall, RecordsTheRun)
     EXPECT_EQ(record["options"]["min-views"], 1);
     EXPECT_EQ(record["options"]["method"], "strict");
     EXPECT_EQ(record["options"]["ascii"], false);
-    EXPECT_EQ(record["schema"], 2);
+    EXPECT_EQ(record["schema"], 3);
     EXPECT_EQ(record["program"]["name"], "colmap-vcarve");
     EXPECT_EQ(record["stages"].front()["name"], "read");
     EXPECT_EQ(record["stages"].back()["name"], "write");

@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "cli/mesh_report.h"
 #include "support/ball_model.h"
 #include "support/page_parts.h"
@@ -149,8 +150,8 @@ TEST(Program, ChecksTheMeshOnRequest)
     const Outcome outcome = run_program({folder / "ball", out, "--check", "-v"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err,
-                ::testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ rays from behind [^\n]*\n"
-                                         "write "));
+                ::testing::ContainsRegex("\ncheck +0 open edges [^\n]*[0-9,]+ of [0-9,]+ rays from "
+                                         "behind[^\n]*\nwrite "));
     EXPECT_THAT(run_program({folder / "ball", out, "--check"}).err,
                 ::testing::ContainsRegex("\ncheck +0 boundary edges[^\n]*\nwrote "));
 }
@@ -310,18 +311,16 @@ TEST(ClosingLine, NamesThePageAfterTheMesh)
 
 TEST(RunOutcome, CollectsCountsOfTheStages)
 {
-    RunOutcome outcome;
-    add_counts({{"filter",
-                 {{"points", 70},
-                  {"of", 100},
-                  {"few views", 10},
-                  {"high error", 15},
-                  {"low angle", 5},
-                  {"stray", 3}}},
-                {"open", {{"rays of the views", 40}, {"of", 4000}}},
-                {"orient", {{"rays on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
-                {"write", {{"faces", 99}, {"vertices", 50}}}},
-               outcome);
+    const RunOutcome outcome = outcome_of(
+        {{"filter",
+          {{counts::kFilter.points, 70, 100},
+           {counts::kFilter.few_views, 10},
+           {counts::kFilter.high_error, 15},
+           {counts::kFilter.low_angle, 5},
+           {counts::kFilter.stray, 3}}},
+         {"open", {{counts::kMesh.open, 40, 4000}, {counts::kMesh.past, 400}}},
+         {"orient", {{counts::kMesh.outside, 9, 10}, {counts::kMesh.boundary_edges, 12}}},
+         {"write", {{counts::kOutput.faces, 99}, {counts::kOutput.vertices, 50}}}});
     EXPECT_EQ(outcome.points, 70);
     EXPECT_EQ(outcome.points_before, 100);
     EXPECT_EQ(outcome.few_views, 10);
@@ -329,11 +328,10 @@ TEST(RunOutcome, CollectsCountsOfTheStages)
     EXPECT_EQ(outcome.low_angle, 5);
     EXPECT_EQ(outcome.stray, 3);
     EXPECT_EQ(outcome.open, 0.01);
+    EXPECT_EQ(outcome.past, 0.1);
     EXPECT_EQ(outcome.boundary_edges, 12);
     EXPECT_EQ(outcome.faces, 99);
-    RunOutcome unknown;
-    add_counts({}, unknown);
-    EXPECT_FALSE(unknown.open);
+    EXPECT_FALSE(outcome_of({}).open);
 }
 
 } // namespace

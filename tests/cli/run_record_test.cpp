@@ -1,3 +1,4 @@
+#include "base/stage_counts.h"
 #include "cli/run_record.h"
 #include "support/sample_options.h"
 
@@ -44,15 +45,15 @@ TEST(StageRecorder, RecordsCountsOfEveryStageAndNotes)
 {
     Log nothing;
     StageRecorder recorder(nothing);
-    Stage(recorder, "filter").end({{"points", 3}, {"of", 5}, {"few views", 2}});
+    Stage(recorder, "filter").end({{counts::kFilter.points, 3, 5}, {counts::kFilter.few_views, 2}});
     recorder.note("a sentence");
-    Stage(recorder, "cut").end({{"cells", 7}});
+    Stage(recorder, "measure").end({{counts::kCompare.faces, 7, 8, "a.ply"}});
 
     const Json json = recorder.json();
     ASSERT_EQ(json["stages"].size(), 2U);
     EXPECT_EQ(json["stages"][0]["name"], "filter");
     EXPECT_EQ(json["stages"][0]["counts"].dump(), R"({"points":3,"of points":5,"few views":2})");
-    EXPECT_EQ(json["stages"][1]["counts"].dump(), R"({"cells":7})");
+    EXPECT_EQ(json["stages"][1]["counts"].dump(), R"({"faces of a.ply":7,"of faces of a.ply":8})");
     EXPECT_EQ(json["notes"].dump(), R"(["a sentence"])");
 }
 
@@ -104,7 +105,7 @@ TEST(StageRecorder, ForwardsEverything)
         void stage_progresses(double share) override { heard += share == 0.5 ? ", half" : ", all"; }
         void stage_ends(std::string_view name, const Counts& counts) override
         {
-            heard += ", end " + std::string(name) + " " + counts.at(0).first;
+            heard += ", end " + std::string(name) + " " + counts.at(0).name();
         }
         void note(std::string_view sentence) override { heard += ", " + std::string(sentence); }
         bool should_stop() const override { return stops; }
@@ -114,7 +115,7 @@ TEST(StageRecorder, ForwardsEverything)
     Stage stage(recorder, "cut");
     stage.progress(0.5);
     recorder.note("hm");
-    stage.end({{"cells", 1}});
+    stage.end({{counts::kCells.all, 1}});
     EXPECT_EQ(listener.heard, "begin cut, half, hm, all, end cut cells");
     EXPECT_FALSE(recorder.should_stop());
     listener.stops = true;

@@ -1,6 +1,7 @@
 #include "io/input/read_model.h"
 
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "io/colmap/colmap_model.h"
 #include "io/colmap/model_files.h"
 #include "io/input/complete_rays.h"
@@ -178,11 +179,10 @@ void end_stage(Stage& stage, const ReadModel& model)
 {
     const SceneSize& read = model.read;
     const std::size_t points = model.one_in > 1 ? read.points : model.scene.num_points();
-    Counts counts = {{"points", size_of(points)}};
-    if (read.points != points) counts.emplace_back("of", size_of(read.points));
-    counts.emplace_back("views", size_of(model.scene.views.size()));
-    counts.emplace_back("rays", size_of(read.rays));
-    stage.end(counts);
+    const std::int64_t all = read.points == points ? kNoTotal : size_of(read.points);
+    stage.end({{counts::kRead.points, size_of(points), all},
+               {counts::kRead.views, size_of(model.scene.views.size())},
+               {counts::kRead.rays, size_of(read.rays)}});
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "base/stage_counts.h"
 #include "mesh/vertices.h"
 #include "model/tet_mesh.h"
 #include "model/usual_values.h"
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace vcarve {
@@ -21,9 +23,9 @@ namespace vcarve {
 /// The reason why a boundary face is not in the mesh.
 enum class Removal : std::uint8_t { unseen, closing, outside_region, small_piece, trimmed };
 
-/// Names of the reasons, which are also keys of the stages' counts.
-inline constexpr std::array<const char*, 5> kRemovalNames = {
-    "unseen", "unsupported", "outside the region", "small pieces", "trimmed"};
+inline constexpr std::array<std::string_view, 5> kRemovalNames = {
+    counts::kSurface.unseen.key, counts::kSurface.unsupported.key, counts::kSurface.outside.key,
+    "small pieces", counts::kSurface.trimmed.key};
 
 /// The removed faces with reasons. Vertices have only positions, in the frame of the scene.
 struct RemovedFaces {

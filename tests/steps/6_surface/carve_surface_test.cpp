@@ -175,8 +175,8 @@ TEST(Removals, DoNothingWithoutARecipient)
 struct StageCounts : Log {
     void stage_ends(std::string_view name, const Counts& counts) override
     {
-        for (const auto& [what, count] : counts) {
-            all[std::string(name) + " " + what] = count;
+        for (const Count& count : counts) {
+            all[std::string(name) + " " + count.name()] = count.value;
         }
     }
     std::map<std::string, std::int64_t> all;
