@@ -1,7 +1,7 @@
 #include "measurements.h"
 
+#include "base/process_usage.h"
 #include "base/stage_counts.h"
-#include "cli/input_output.h"
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"
 #include "pipeline/memory.h"
@@ -48,31 +48,31 @@ std::vector<Kernel::Point_3> cgal_points(const std::vector<Eigen::Vector3d>& poi
 /// Time since construction, and the peak of memory above the memory in use at construction.
 class Meter {
   public:
-    Meter() : base_bytes_(begin_peak()), began_(cli::process_usage()) {}
+    Meter() : base_bytes_(begin_peak()), began_(process_usage()) {}
 
     std::int64_t base_bytes() const { return base_bytes_; }
     std::int64_t above_base(std::int64_t peak_bytes) const { return peak_bytes - base_bytes_; }
 
     Json json() const
     {
-        const cli::ProcessUsage now = cli::process_usage();
+        const ProcessUsage now = process_usage();
         return {{"seconds", now.seconds - began_.seconds},
                 {"cpu_seconds", now.cpu_seconds - began_.cpu_seconds},
-                {"peak_bytes", above_base(cli::peak_memory_bytes())}};
+                {"peak_bytes", above_base(peak_memory_bytes())}};
     }
 
   private:
     static std::int64_t begin_peak()
     {
-        if (!cli::reset_peak_memory()) {
+        if (!reset_peak_memory()) {
             throw std::runtime_error("cannot reset the peak of memory: this system does not "
                                      "accept 5 in /proc/self/clear_refs");
         }
-        return cli::peak_memory_bytes();
+        return peak_memory_bytes();
     }
 
     std::int64_t base_bytes_;
-    cli::ProcessUsage began_;
+    ProcessUsage began_;
 };
 
 std::vector<Vector3d> read_raw_points(const std::filesystem::path& path)

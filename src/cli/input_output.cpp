@@ -1,10 +1,7 @@
 #include "cli/input_output.h"
 
-#include "base/text.h"
 #include "cli/exit_code.h"
 #include "io/colmap/model_files.h"
-#include "io/colmap/sim3_text.h"
-#include "io/colmap/transforms_json.h"
 #include "io/files/output_file.h"
 #include "io/input/find_input.h"
 #include "vcarve/error.h"
@@ -14,8 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -145,24 +140,6 @@ Json input_json(const RunInput& input, const ReadModel& model)
     }
     if (dense) json["cloud"] = dense->cloud.string();
     return json;
-}
-
-std::optional<Similarity> transform_of(const std::string& text, const FoundModel& model)
-{
-    if (text.empty()) return std::nullopt;
-    double scale = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, scale);
-    if (lower_case_end(text) == ".json") {
-        const bool has_poses = model.format == ModelFormat::transforms;
-        return read_nerfstudio_transform(text, has_poses ? model.folder : fs::path());
-    }
-    if (error == std::errc::invalid_argument || stop != end) return read_sim3(text);
-    if (error != std::errc() || !(scale > 0.0) || !std::isfinite(scale)) {
-        throw UsageError(
-            fmt::format("--transform takes a file or a scale above 0, not \"{}\"", text));
-    }
-    return Similarity{.scale = scale, .linear = scale * Eigen::Matrix3d::Identity()};
 }
 
 } // namespace vcarve::cli

@@ -57,9 +57,4 @@ std::filesystem::path folder_beside(const std::filesystem::path& out);
 /// {"model", "folder", "format", "cloud", "points", "views", "rays"} of an input.
 Json input_json(const RunInput& input, const ReadModel& model);
 
-/// The transformation of --transform, a scale or a file, from the frame of the model; nothing if
-/// `text` is empty. Throws UsageError if a number is not a valid scale, and InputError as
-/// read_sim3() and read_nerfstudio_transform().
-std::optional<Similarity> transform_of(const std::string& text, const FoundModel& model);
-
 } // namespace vcarve::cli

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "base/process_usage.h"
 #include "base/progress.h"
 #include "options/option.h"
 
 #include <nlohmann/json.hpp>
-#include <sys/time.h>
 
 #include <cstdint>
 #include <span>
@@ -14,22 +14,6 @@ namespace vcarve::cli {
 
 /// JSON with keys in insertion order, so that people can read a record from top to bottom.
 using Json = nlohmann::ordered_json;
-
-double seconds_of(const timeval& time);
-
-/// The time that this process has used so far.
-struct ProcessUsage {
-    double seconds = 0.0;     ///< of a monotonic clock with an arbitrary zero
-    double cpu_seconds = 0.0; ///< of all threads, user and system
-};
-ProcessUsage process_usage();
-
-/// Peak memory of the process (VmHWM) since its start or the last reset_peak_memory(); 0 if
-/// unknown.
-std::int64_t peak_memory_bytes();
-
-/// Resets the peak. Returns false if the system does not permit it.
-bool reset_peak_memory();
 
 /// Forwards to another log, and records seconds, CPU seconds, peak memory and counts of each stage.
 /// Resets the process's peak memory at each stage, so `time -v` shows the peak of the last stage.

@@ -388,6 +388,21 @@ OptionList options_of(Options& options)
                    run_options(options)});
 }
 
+Option up_option(WordOrVector& up)
+{
+    return {
+        "Output",
+        {.name = "up",
+         .help =
+             "Set the up direction of .glb, which becomes y, and record it in the file. auto: up "
+             "in most cameras. back: opposite to the cameras' view, for cameras that look "
+             "straight down. z, or x,y,z: a direction in output coordinates. none: keep y.",
+         .min = -kUnlimited,
+         .words = {"auto", "back", "z", "none"},
+         .level = advanced},
+        &up};
+}
+
 OptionList options_of(CompareOptions& options)
 {
     constexpr const char* kStage = "Measurement";

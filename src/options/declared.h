@@ -10,7 +10,7 @@ namespace vcarve {
 /// Heading of options that do not affect the result: threads, memory.
 inline constexpr const char* kRunStage = "Run";
 
-/// Heading of the photographs and what is made of them.
+/// Heading of dense points, texture and masks.
 inline constexpr const char* kPhotoStage = "Photograph";
 
 /// PointsOptions as typed on the command line.
@@ -25,6 +25,9 @@ struct PointsArguments {
 OptionList options_of(Options& options);
 OptionList options_of(CompareOptions& options);
 OptionList options_of(PointsArguments& arguments);
+
+/// The up direction of a mesh file.
+Option up_option(WordOrVector& up);
 
 /// Throws UsageError if a value is out of range. For callers that set the fields themselves.
 template <typename AnyOptions>

@@ -94,7 +94,8 @@ Counts remove_masked(RunState& run, const Progress& progress)
     const Photographs& masks = *run.images->masks;
     const std::int64_t before = size_of(run.surface.faces.size());
     run.surface = without_masked_faces(
-        run.surface, views_with_masks(run.points.scene, masks, run.surface.offset), progress);
+        run.surface, views_with_masks(run.points.scene, masks, run.surface.offset),
+        run.options().surface.cleanup.min_component, progress);
     if (run.surface.faces.empty()) {
         throw InputError(fmt::format("the masks in {} exclude all faces; black pixels are "
                                      "excluded, so the masks may need to be inverted",

@@ -124,7 +124,7 @@ std::vector<CalibratedPhoto> views_with_masks(const Scene& scene, const Photogra
 }
 
 TriMesh without_masked_faces(const TriMesh& mesh, const std::vector<CalibratedPhoto>& views,
-                             const Progress& progress)
+                             int min_component, const Progress& progress)
 {
     const std::vector<Votes> votes = votes_of(mesh, views, progress);
     TriMesh kept = mesh;
@@ -151,7 +151,8 @@ TriMesh without_masked_faces(const TriMesh& mesh, const std::vector<CalibratedPh
         const std::uint32_t root = components.root(face[0]);
         return is_cut[root] != 0 && is_clear[root] == 0;
     });
-    return tri_mesh(*clean_surface(std::move(kept), {.max_hole = 0}).mesh);
+    return tri_mesh(
+        *clean_surface(std::move(kept), {.min_component = min_component, .max_hole = 0}).mesh);
 }
 
 } // namespace vcarve

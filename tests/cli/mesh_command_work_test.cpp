@@ -1,4 +1,5 @@
 // Tests of colmap-vcarve --work DIR.
+#include "support/photographed_wall.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -48,7 +49,7 @@ TEST_F(WorkOfProgram, DoesNotChangeTheMeshAndIsRemoved)
     EXPECT_FALSE(fs::exists(work));
 }
 
-TEST_F(WorkOfProgram, IsEmptyAfterAnInputError)
+TEST_F(WorkOfProgram, KeepsFinishedTilesAfterAnInputError)
 {
     // Points in one plane pass the filter but have no cells.
     folder.write("plane/cameras.txt", "1 SIMPLE_PINHOLE 1000 1000 1000 500 500\n");
@@ -64,7 +65,7 @@ TEST_F(WorkOfProgram, IsEmptyAfterAnInputError)
         run_program({folder / "plane", out, "--tile-points", "9", "--work", work});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("no surface found"));
-    EXPECT_TRUE(fs::is_empty(work));
+    EXPECT_TRUE(fs::exists(work + "/tiles.stage"));
 }
 
 TEST_F(WorkOfProgram, IsKeptAndResumedOnRequest)
@@ -124,6 +125,77 @@ TEST_F(WorkOfProgram, IsRemovedWithTheFilesOfTilesBySignals)
     program.send(SIGTERM);
     EXPECT_EQ(program.wait().exit_code, 128 + SIGTERM);
     EXPECT_EQ(folder.num_entries(), 0U);
+}
+
+/// A copy of the photographed desk, and a run with dense points.
+class WorkOfDenseRun : public WorkOfProgram {
+  protected:
+    WorkOfDenseRun() { fs::copy(fixtures_folder() / "desk_photos", desk, kAll); }
+
+    Outcome run_dense(std::vector<std::string> more) const
+    {
+        more.insert(more.begin(), {desk + "/sparse", out, "--dense", "--dense-size", "160"});
+        return run_program(more);
+    }
+
+    static constexpr auto kAll = fs::copy_options::recursive;
+    std::string desk = folder / "desk";
+};
+
+TEST_F(WorkOfDenseRun, KeepsDepthMapsAfterAnInputError)
+{
+    for (const fs::directory_entry& photo : fs::recursive_directory_iterator(desk + "/images")) {
+        if (!photo.is_regular_file()) continue;
+        const fs::path name = fs::relative(photo.path(), desk + "/images");
+        fs::create_directories((desk / "masks" / name).parent_path());
+        const auto black = [](int, int) { return true; };
+        write_photograph(desk + "/masks/" + name.string() + ".png", mask_image(64, 48, black));
+    }
+    const std::vector<std::string> all_masked = {"--masks", desk + "/masks", "--work", work};
+    for (int run = 0; run < 2; ++run) {
+        const Outcome outcome = run_dense(all_masked);
+        EXPECT_EQ(outcome.exit_code, 3);
+        EXPECT_THAT(outcome.err, HasSubstr("exclude all faces"));
+        EXPECT_TRUE(fs::exists(work + "/depth-11.stage")) << "hours of work would be lost";
+    }
+}
+
+TEST_F(WorkOfDenseRun, MayBeInTheFolderOfThePhotographs)
+{
+    work = desk + "/images/w";
+    const std::vector<std::string> inside = {"--images", desk + "/images", "--work",
+                                             work,       "--keep-work",    "--quiet"};
+    EXPECT_EQ(run_dense(inside).exit_code, 0);
+    const std::string expected = bytes_of(out);
+    const Outcome outcome = run_dense(inside);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(bytes_of(out) == expected);
+}
+
+TEST_F(WorkOfDenseRun, MayBeDividedIntoTilesWithImages)
+{
+    const Outcome outcome = run_dense({"--images", desk + "/images", "--tile-points", "2000"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, ContainsRegex("surfaces +[0-9]+ of [0-9]+ tiles"));
+    EXPECT_THAT(sentence_of(2, {desk + "/sparse", out, "--images", desk + "/images",
+                                "--tile-points", "2000"}),
+                HasSubstr("--images needs the model in one piece"));
+}
+
+TEST_F(WorkOfDenseRun, FindsPhotographsBesideTheModelThatWasFound)
+{
+    const std::string project = folder / "project";
+    fs::create_directories(project);
+    fs::copy(desk, project + "/colmap", kAll);
+    fs::create_directories(project + "/colmap/sparse/0");
+    for (const char* const file : {"cameras.bin", "images.bin", "points3D.bin"}) {
+        fs::rename(project + "/colmap/sparse/" + file, project + "/colmap/sparse/0/" + file);
+    }
+    for (const std::string& model : {project, project + "/colmap/sparse/0/cameras.bin"}) {
+        const Outcome outcome = run_program({model, folder / "out.glb", "--texture"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("project/colmap/images"));
+    }
 }
 
 TEST_F(WorkOfProgram, MustBeASeparateFolder)

@@ -16,6 +16,7 @@ namespace vcarve::texture_command_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kModel = fixtures_folder() / "desk_photos/sparse";
 
@@ -81,11 +82,22 @@ TEST_F(TextureCommand, ReportsErrorsBeforeTheWorkStarts)
                 HasSubstr("must end with .glb, .obj or .ply"));
     EXPECT_THAT(sentence_of(2, {"texture", kModel, folder / "mesh.fbx", out}),
                 HasSubstr("must end with .ply, .obj, .off or .stl"));
-    EXPECT_THAT(sentence_of(3, {"texture", kModel, folder / "none.ply", out}),
+    folder.write("broken.ply", "no mesh");
+    EXPECT_THAT(sentence_of(2, {"texture", kModel, folder / "broken.ply",
+                                folder / "nowhere/out.glb", "--quiet"}),
+                HasSubstr("nowhere/out.glb"));
+    EXPECT_THAT(sentence_of(3, {"texture", kModel, folder / "none.ply", out, "--quiet"}),
                 HasSubstr("none.ply"));
     EXPECT_EQ(sentence_of(2, {"texture", kModel, given, given, "--quiet"}),
               "colmap-vcarve: the textured mesh would replace the mesh " + given + "\n");
     EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(TextureCommand, SaysInItsHelpWhatItDoesWithPhotographsAndMasks)
+{
+    const std::string help = run_program({"texture", "--help-all"}).out;
+    EXPECT_THAT(help, HasSubstr("No faces are removed."));
+    EXPECT_THAT(help, Not(HasSubstr("dense points")));
 }
 
 /// Writes masks for the photographs of the desk. They are black right of this share of the width.

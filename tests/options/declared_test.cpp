@@ -37,9 +37,11 @@ TEST(DeclaredOptions, CoverAllFieldsOfOptions)
                                      num_fields<CleanupOptions>() + num_fields<SmoothOptions>() +
                                      num_fields<SimplifyOptions>();
     constexpr std::size_t kRun = num_fields<MemoryOptions>() + 1; // and threads
-    static_assert(num_fields<Options>() == 10 && num_fields<RefineOptions>() == 2);
+    // and the folders of photographs and masks
+    constexpr std::size_t kPhotos = num_fields<DenseOptions>() + num_fields<TextureOptions>() + 2;
+    static_assert(num_fields<Options>() == 14 && num_fields<RefineOptions>() == 2);
     Options options;
-    EXPECT_EQ(options_of(options).size(), kParts + kLabels + kSurface + kRun);
+    EXPECT_EQ(options_of(options).size(), kPhotos + kParts + kLabels + kSurface + kRun);
 }
 
 TEST(DeclaredOptions, HaveUniqueNamesAndHelp)

@@ -1,6 +1,7 @@
 #include "base/version.h"
 #include "options/declared.h"
 #include "run/job.h"
+#include "support/recording_log.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 #include "vcarve/options.h"
@@ -34,6 +35,8 @@ void change(const Option& option)
         ++**bytes;
     } else if (auto* const* flag = std::get_if<bool*>(&option.value)) {
         **flag = !**flag;
+    } else if (auto* const* path = std::get_if<fs::path*>(&option.value)) {
+        **path = "folder";
     } else if (auto* const* region = std::get_if<RegionChoice*>(&option.value)) {
         (*region)->kind = RegionChoice::Kind::looked_at;
     } else {
@@ -58,7 +61,7 @@ void write_model(const TemporaryFolder& folder, const std::string& points)
 
 } // namespace
 
-TEST(Job, DependsOnEveryOptionExceptThoseOfTheRun)
+TEST(Job, DependsOnEveryOptionThatChangesKeptFiles)
 {
     const Job usual = option_facts(Options());
     std::vector<std::string> without;
@@ -69,7 +72,13 @@ TEST(Job, DependsOnEveryOptionExceptThoseOfTheRun)
         change(option);
         if (option_facts(options) == usual) without.push_back(option.info.name);
     }
-    EXPECT_THAT(without, ElementsAre("threads", "max-memory"));
+    EXPECT_THAT(without, ElementsAre("dense-size", "texture", "texture-scale", "images", "masks",
+                                     "threads", "max-memory"));
+    Options dense;
+    dense.dense.dense = true;
+    Options finer = dense;
+    finer.dense.size_px = 1000;
+    EXPECT_NE(option_facts(finer), option_facts(dense));
 }
 
 TEST(Job, DistinguishesNumbersToTheLastBit)
@@ -199,6 +208,24 @@ TEST(DigestOfScene, DoesNotDependOnTheOrderOfThePoints)
     EXPECT_NE(digest_of(turned), digest_of(scene)) << "the points have other ids";
     std::swap(turned.point_ids[0], turned.point_ids[1]);
     EXPECT_EQ(digest_of(turned), digest_of(scene));
+}
+
+TEST(ImageFacts, HaveTheContentOfThePhotographsOfViewsOnly)
+{
+    const TemporaryFolder folder;
+    Photographs photos;
+    photos.folder = folder.path();
+    photos.of_view = {folder.write("a.jpg", "1"), {}, folder.write("b/c.jpg", "2")};
+    folder.write("other.jpg", "3");
+    RecordingLog log;
+    Stage stage(log, "digest");
+    const Job facts = image_facts("photograph", photos, stage);
+    ASSERT_EQ(facts.size(), 2U);
+    EXPECT_EQ(facts[0].name, "photograph a.jpg");
+    EXPECT_EQ(facts[1].name, "photograph b/c.jpg");
+    EXPECT_NE(facts[0].value, facts[1].value);
+    EXPECT_THAT(log.shares()["digest"], ElementsAre(1.0 / 3.0, 2.0 / 3.0))
+        << "the work is not over before the last photograph";
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 
 #include "base/free_memory.h"
 #include "base/numbers.h"
-#include "cli/run_record.h"
+#include "base/process_usage.h"
 #include "vcarve/scene.h"
 
 #ifdef __GLIBC__
@@ -71,10 +71,10 @@ double memory_taken(const Action& action)
     mallopt(M_MMAP_THRESHOLD, 1 << 17);
 #endif
     return_freed_memory();
-    if (!cli::reset_peak_memory()) throw std::runtime_error("cannot reset the peak of memory");
-    const std::int64_t before = cli::peak_memory_bytes();
+    if (!reset_peak_memory()) throw std::runtime_error("cannot reset the peak of memory");
+    const std::int64_t before = peak_memory_bytes();
     action();
-    return static_cast<double>(cli::peak_memory_bytes() - before);
+    return static_cast<double>(peak_memory_bytes() - before);
 }
 
 } // namespace vcarve

@@ -25,7 +25,10 @@ class MaskedWall : public ::testing::Test {
 
     void add_without_mask(const Eigen::Vector3d& center) { views.push_back(photo_from(center)); }
 
-    TriMesh kept_of(const TriMesh& mesh) { return without_masked_faces(mesh, views, Progress()); }
+    TriMesh kept_of(const TriMesh& mesh)
+    {
+        return without_masked_faces(mesh, views, 6, Progress());
+    }
 
     TemporaryFolder folder;
     std::vector<CalibratedPhoto> views;

@@ -1,26 +1,37 @@
 #include "io/formats/output_frame.h"
 
+#include "base/text.h"
+#include "io/colmap/sim3_text.h"
+#include "io/colmap/transforms_json.h"
 #include "model/views.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
 #include <utility>
 
 namespace vcarve {
 
-Option up_option(WordOrVector& up)
+std::optional<Similarity> transform_of(const std::string& text, const FoundModel& model)
 {
-    return {
-        "Output",
-        {.name = "up",
-         .help =
-             "Set the up direction of .glb, which becomes y, and record it in the file. auto: up "
-             "in most cameras. back: opposite to the cameras' view, for cameras that look "
-             "straight down. z, or x,y,z: a direction in output coordinates. none: keep y.",
-         .min = -kUnlimited,
-         .words = {"auto", "back", "z", "none"},
-         .level = OptionLevel::advanced},
-        &up};
+    if (text.empty()) return std::nullopt;
+    double scale = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, scale);
+    if (lower_case_end(text) == ".json") {
+        const bool has_poses = model.format == ModelFormat::transforms;
+        return read_nerfstudio_transform(text, has_poses ? model.folder : std::filesystem::path());
+    }
+    if (error == std::errc::invalid_argument || stop != end) return read_sim3(text);
+    if (error != std::errc() || !(scale > 0.0) || !std::isfinite(scale)) {
+        throw UsageError(
+            fmt::format("--transform takes a file or a scale above 0, not \"{}\"", text));
+    }
+    return Similarity{.scale = scale, .linear = scale * Eigen::Matrix3d::Identity()};
 }
 
 Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,

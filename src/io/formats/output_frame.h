@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/colmap/find_model.h"
 #include "model/similarity.h"
 #include "options/option.h"
 #include "vcarve/scene.h"
@@ -8,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <string>
 
 namespace vcarve {
 
@@ -16,8 +18,10 @@ enum class OffsetWord { none, automatic };
 /// z of the output, or unknown.
 enum class UpWord { automatic, back, z, none };
 
-/// --up, the up direction of a mesh file.
-Option up_option(WordOrVector& up);
+/// The transformation of --transform, a scale or a file, from the frame of the model; nothing if
+/// `text` is empty. Throws UsageError if a number is not a valid scale, and InputError as
+/// read_sim3() and read_nerfstudio_transform().
+std::optional<Similarity> transform_of(const std::string& text, const FoundModel& model);
 
 /// The offset of --offset, to be subtracted from coordinates after `transform`. The words are those
 /// of OffsetWord.

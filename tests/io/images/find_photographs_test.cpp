@@ -179,6 +179,43 @@ TEST(PhotographsBeside, FindsTheUsualFolders)
     folder.write("nerf/transforms.json", "{}");
     EXPECT_EQ(photographs_beside(folder / "nerf"), canonical / "nerf");
     EXPECT_EQ(photographs_beside(folder / "nerf/transforms.json"), canonical / "nerf");
+    put_photo(folder, "studio/images/a.jpg", 3);
+    folder.write("studio/colmap/sparse/0/cameras.bin", "");
+    EXPECT_EQ(photographs_beside(folder / "studio/colmap/sparse/0"), canonical / "studio/images");
+    put_photo(folder, "studio/colmap/images/a.jpg", 3);
+    EXPECT_EQ(photographs_beside(folder / "studio/colmap/sparse/0"),
+              canonical / "studio/colmap/images");
+}
+
+TEST(FindImages, RejectsPhotographsThatNeedMoreThanHalfOfTheMemory)
+{
+    const TemporaryFolder folder;
+    put_photo(folder, "images/a.jpg", 3);
+    const Scene scene = scene_of({"a.jpg"});
+    Options options;
+    options.images = folder / "images";
+    Log log;
+    const PhotographSize size = find_images(scene, options, {}, log).photographs->sizes[0];
+    const std::int64_t needed = std::int64_t{8} * size.width_px * size.height_px;
+    options.memory.limit = 2 * needed;
+    EXPECT_NO_THROW(find_images(scene, options, {}, log));
+    options.memory.limit = 2 * needed - 1;
+    EXPECT_THAT(refusal<InputError>([&] { find_images(scene, options, {}, log); }),
+                HasSubstr("images: the largest photograph needs "));
+}
+
+TEST(FindImages, NeedsAFolderOnlyIfAnOptionReadsPhotographs)
+{
+    Log log;
+    EXPECT_FALSE(find_images(scene_of({"a.jpg"}), {}, {}, log).photographs);
+    for (const bool is_dense : {false, true}) {
+        Options options;
+        options.dense.dense = is_dense;
+        options.texture.texture = !is_dense;
+        EXPECT_EQ(refusal<UsageError>([&] { find_images(scene_of({"a.jpg"}), options, {}, log); }),
+                  "found no folder `images` beside the points; name the folder of the photographs "
+                  "with --images");
+    }
 }
 
 } // namespace
