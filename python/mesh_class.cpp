@@ -12,6 +12,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 namespace vcarve::python {
@@ -61,6 +62,20 @@ std::shared_ptr<Mesh> mesh_of(const py::object& vertices, const py::object& face
     return mesh;
 }
 
+/// The mesh as the run made it, unless a user has changed its vertices since; else null.
+std::optional<TriMesh> mesh_of_run(const Mesh& mesh)
+{
+    const auto& now = mesh.surface.positions;
+    const auto is_same = [&](const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
+        return before + mesh.run_offset == after;
+    };
+    if (now.empty() || !std::ranges::equal(mesh.run_positions, now, is_same)) return std::nullopt;
+    TriMesh made = mesh.surface;
+    made.positions = mesh.run_positions;
+    made.offset = mesh.run_offset;
+    return made;
+}
+
 void write(const Mesh& mesh, const std::filesystem::path& path, bool ascii,
            const Eigen::Vector3d& offset)
 {
@@ -81,7 +96,8 @@ void write(const Mesh& mesh, const std::filesystem::path& path, bool ascii,
         format.comments = {"made by colmap-vcarve " + versions().program};
     }
     const py::gil_scoped_release released;
-    write_mesh(path, mesh.surface, format);
+    const std::optional<TriMesh> made = end == ".glb" ? mesh_of_run(mesh) : std::nullopt;
+    write_mesh(path, made ? *made : mesh.surface, format);
 }
 
 std::shared_ptr<Mesh> read(const std::filesystem::path& path)

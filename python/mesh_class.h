@@ -14,6 +14,10 @@ namespace vcarve::python {
 /// A mesh in the frame of the model, with its provenance if requested.
 struct Mesh {
     TriMesh surface; ///< its offset is zero
+    /// The positions before the run's offset was added, and this offset; empty for other meshes.
+    /// The program writes .glb files from these, so that rounding would differ otherwise.
+    std::vector<Eigen::Vector3d> run_positions;
+    Eigen::Vector3d run_offset = Eigen::Vector3d::Zero();
     Provenance provenance;
     Texture texture;
     std::vector<std::string> comments;            ///< of its files

@@ -7,6 +7,7 @@
 #include "logged_run.h"
 #include "mesh_class.h"
 #include "options/declared.h"
+#include "run/job.h"
 #include "scene_class.h"
 #include "steps/6_surface/provenance.h"
 #include "vcarve/compare.h"
@@ -51,7 +52,15 @@ std::shared_ptr<Mesh> mesh_of(Reconstruction made, const RunKeywords& run)
     mesh->up = up_for(made.scene, run.up, std::nullopt);
     mesh->texture = std::move(made.texture);
     mesh->comments = std::move(made.comments);
+    // as the program lists options of the output
     if (run.attributes) mesh->comments.emplace_back("option attributes");
+    WordOrVector usual;
+    WordOrVector up = run.up;
+    for (std::string& changed : changed_options({up_option(up)}, {up_option(usual)})) {
+        mesh->comments.push_back(std::move(changed));
+    }
+    mesh->run_positions = made.mesh.positions;
+    mesh->run_offset = made.mesh.offset;
     mesh->surface = in_frame_of_model(std::move(made.mesh));
     return mesh;
 }

@@ -181,8 +181,8 @@ struct MemoryOptions {
 
 /// All options of a run, one struct per step.
 struct Options {
-    /// Folder of the photographs, for colors, texture and dense points. Empty: these are taken from
-    /// the folder `images` beside the model, and colors from the points.
+    /// Folder of the photographs, for dense points, texture and colors. If empty, dense points and
+    /// texture use the folder `images` beside the model, and other runs no photographs.
     std::filesystem::path images;
     DenseOptions dense;             ///< dense points
     MaskOptions masks;              ///< masks of the photographs

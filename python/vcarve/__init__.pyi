@@ -1,7 +1,7 @@
 # Written by tools/docs/python_stub from what the library declares.
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,6 +64,13 @@ class Scene:
     def set_normals(self, normals: ArrayLike) -> None: ...
 
 
+class Texture(NamedTuple):
+    """Images (height, width, 3), the page of each face, and the places of its corners there."""
+    pages: list[NDArray[np.uint8]]
+    page_of_face: NDArray[np.uint32]
+    coordinates: NDArray[np.float32]
+
+
 class Mesh:
     """A surface. The arrays are the library's memory; they are empty if unknown.
     Colors are integers from 0 to 255 or floats from 0 to 1."""
@@ -85,6 +92,8 @@ class Mesh:
     def errors_px(self) -> NDArray[np.float32]: ...
     @property
     def support(self) -> NDArray[np.int32]: ...
+    @property
+    def texture(self) -> Texture | None: ...
     @property
     def counts(self) -> dict[str, dict[str, int]]: ...
     def write(self, path: _Path, *, ascii: bool = False,
@@ -110,6 +119,12 @@ def reconstruct(
     visibility: _Path | None = None,
     rays: Literal["auto", "file", "nearest"] = "auto",
     scanner: _Numbers | Literal["file"] = "file",
+    dense: bool = False,
+    dense_size: int = 640,
+    texture: bool = False,
+    texture_scale: float = 1.0,
+    images: _Path | None = None,
+    masks: _Path | None = None,
     min_views: int = 2,
     max_error: float = 4.0,
     min_angle: float = 1.0,
@@ -133,7 +148,7 @@ def reconstruct(
     virtual_views: int = 0,
     virtual_weight: float = 0.5,
     closed: bool = False,
-    max_closing: float = 0.115,
+    max_closing: float | Literal["auto"] = "auto",
     rim_closing: float = 2.0,
     half_seen: float = 0.5,
     hardly_seen: float = 0.12,
@@ -144,6 +159,17 @@ def reconstruct(
     max_hole: int = 12,
     smooth: int = 0,
     simplify: int | Literal["auto"] = "auto",
+    threads: int = 0,
+    max_memory: int | str | Literal["auto"] = "auto",
+    up: _Numbers | Literal["auto", "back", "z", "none"] = "auto",
+) -> Mesh: ...
+
+
+def texture(
+    model: Scene | _Path | Any, mesh: Mesh | _Path, *, progress: _Progress | None = None,
+    texture_scale: float = 1.0,
+    images: _Path | None = None,
+    masks: _Path | None = None,
     threads: int = 0,
     max_memory: int | str | Literal["auto"] = "auto",
 ) -> Mesh: ...

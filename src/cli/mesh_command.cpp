@@ -19,8 +19,10 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vcarve::cli {
@@ -29,11 +31,9 @@ namespace {
 
 constexpr int kStatsSchema = 3; ///< version of --stats; increased if keys change
 
-/// Reports errors in inputs and outputs before the work starts. Returns the input.
-RunInput prepared_input(MeshArguments& arguments, const std::filesystem::path& scratch, Log& log)
+/// Finds the input. Reports errors in small files before the work starts.
+RunInput resolved_input(MeshArguments& arguments, const std::vector<Output>& outputs, Log& log)
 {
-    const std::vector<Output> outputs = outputs_of(arguments);
-    prepare_outputs(outputs, arguments.work.empty() ? scratch : std::filesystem::path());
     RunInput input = resolve_input(arguments.model.path, arguments.model.all_points(),
                                    arguments.options, needs_view(arguments.preview), log);
     keep_inputs(outputs, input,
@@ -51,7 +51,7 @@ RunInput prepared_input(MeshArguments& arguments, const std::filesystem::path& s
 
 RunPlan plan_of(const MeshArguments& arguments, const std::filesystem::path& scratch)
 {
-    return {.work = arguments.work,
+    return {.work = arguments.work.empty() ? nullptr : std::make_unique<WorkFolder>(arguments.work),
             .keeps_work = arguments.keeps_work,
             .scratch = scratch,
             .keep_points = arguments.keep_points,
@@ -111,9 +111,11 @@ void run_mesh(const ParsedArguments& given)
     Log& log = recorder ? static_cast<Log&>(*recorder) : shown;
 
     const std::filesystem::path scratch = folder_beside(arguments.out);
-    const RunInput input = prepared_input(arguments, scratch, log);
-    const RunPlan plan = plan_of(arguments, scratch);
-    ModelRun run(input, arguments.options, plan, log);
+    const std::vector<Output> outputs = outputs_of(arguments);
+    prepare_outputs(outputs, arguments.work.empty() ? scratch : std::filesystem::path());
+    RunPlan plan = plan_of(arguments, scratch);
+    const RunInput input = resolved_input(arguments, outputs, log);
+    ModelRun run(input, arguments.options, std::move(plan), log);
     if (run.is_made_by_another(arguments.out)) {
         return shown.conclude(fmt::format("another process wrote {}; this one made some of its "
                                           "tiles",

@@ -1,5 +1,6 @@
 #include "pipeline/stages.h"
 
+#include "io/images/find_photographs.h"
 #include "pipeline/run_state.h"
 
 #include <tbb/task_arena.h>
@@ -126,7 +127,7 @@ bool has_masks(const Needs& n)
 /// With photographs, vertices get their colors.
 bool colors_mesh(const Needs& n)
 {
-    return ends_whole(n) && (n.options.texture.texture || !n.options.images.empty());
+    return ends_whole(n) && reads_photographs(n.options);
 }
 
 bool paints_texture(const Needs& n)

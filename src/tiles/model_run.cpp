@@ -42,39 +42,38 @@ void plan_tiles(ReadModel model, std::size_t most, TiledRun& tiles)
 
 } // namespace
 
-ModelRun::ModelRun(const RunInput& input, const Options& options, const RunPlan& plan, Log& log)
+ModelRun::ModelRun(const RunInput& input, const Options& options, RunPlan plan, Log& log)
     : input_(input),
       options_(options),
-      plan_(plan),
+      plan_(std::move(plan)),
       log_(log),
       run_{.options = options,
            .images = input.images,
            .log = log,
-           .wants_report = plan.wants_report},
-      memory_(options.memory, plan.tile_points, plan.needs_one_piece,
+           .wants_report = plan_.wants_report},
+      memory_(options.memory, plan_.tile_points, plan_.needs_one_piece,
               threads_or_all(options.threads))
 {
     run_.keep_depth = [this](std::size_t photo, const auto& make) {
         return kept_depth(photo, make);
     };
-    if (!plan.keep_points.empty()) {
+    if (!plan_.keep_points.empty()) {
         run_.take_fused = [this](const Scene& fused) {
             write_dense_points(plan_.keep_points, fused, input_.file_order);
         };
     }
-    if (plan.work.empty()) return;
-    work_ = std::make_unique<WorkFolder>(plan.work);
-    if (!work_->leads() && plan.tile_points == 0) { // only tiles can be shared
+    if (!plan_.work) return;
+    if (!plan_.work->leads() && plan_.tile_points == 0) { // only tiles can be shared
         throw InputError(fmt::format("another run uses the work folder {}; wait until it ends, or "
                                      "choose another folder with --work",
-                                     work_->path().string()));
+                                     plan_.work->path().string()));
     }
-    work_->begin(job());
+    plan_.work->begin(job());
 }
 
 ModelRun::~ModelRun()
 {
-    if (work_ && plan_.work.empty()) work_->clear();
+    if (is_temporary_) plan_.work->clear();
 }
 
 /// Everything that the kept files depend on. Options such as --offset take effect later.
@@ -102,12 +101,12 @@ Job ModelRun::job() const
 
 bool ModelRun::is_made_by_another(const fs::path& out)
 {
-    if (!work_ || work_->leads()) return false;
+    if (!plan_.work || plan_.work->leads()) return false;
     const Options options = options_of_tiles();
-    if (!TiledRun(*work_, options, log_).help()) return false;
+    if (!TiledRun(*plan_.work, options, log_).help()) return false;
     std::error_code error;
     const fs::file_time_type written = fs::last_write_time(out, error);
-    if (error || written < work_->began()) {
+    if (error || written < plan_.work->began()) {
         throw InputError(fmt::format("{}: the process that led the run has ended without it; its "
                                      "messages say why",
                                      out.string()));
@@ -144,18 +143,18 @@ ReadModel ModelRun::read()
 /// Returns make(), or its result of an earlier run if the folder has it intact.
 DepthMap ModelRun::kept_depth(std::size_t photo, const std::function<DepthMap()>& make) const
 {
-    if (!work_) return make();
+    if (!plan_.work) return make();
     const std::string name = fmt::format("depth-{}", photo);
     try {
         DepthMap kept;
-        if (work_->has(name)) {
-            work_->load(name, kept);
+        if (plan_.work->has(name)) {
+            plan_.work->load(name, kept);
             return kept;
         }
     } catch (const InputError&) { // damaged; make() computes the same bytes again
     }
     DepthMap made = make();
-    work_->save(name, made);
+    plan_.work->save(name, made);
     return made;
 }
 
@@ -196,12 +195,13 @@ ReportedRun ModelRun::made_of(ReadModel model)
 
 ReportedRun ModelRun::made_in_tiles(ReadModel model)
 {
-    if (!work_) {
-        work_ = std::make_unique<WorkFolder>(plan_.scratch);
-        work_->begin({program_fact()});
+    if (!plan_.work) {
+        plan_.work = std::make_unique<WorkFolder>(plan_.scratch);
+        is_temporary_ = true;
+        plan_.work->begin({program_fact()});
     }
     const Options options = options_of_tiles();
-    TiledRun tiles(*work_, options, log_);
+    TiledRun tiles(*plan_.work, options, log_);
     plan_tiles(std::move(model), memory_.tile_points(), tiles);
     ReportedRun made;
     made.mesh = tiles.make();
@@ -210,7 +210,7 @@ ReportedRun ModelRun::made_in_tiles(ReadModel model)
 
 void ModelRun::end()
 {
-    if (work_ && !plan_.keeps_work) work_->clear();
+    if (plan_.work && !plan_.keeps_work) plan_.work->clear();
 }
 
 } // namespace vcarve

@@ -17,7 +17,7 @@ namespace vcarve {
 
 /// What a run keeps, where, and what it needs.
 struct RunPlan {
-    std::filesystem::path work;        ///< folder of kept depth maps and tiles; empty keeps none
+    std::unique_ptr<WorkFolder> work;  ///< for depth maps and tiles; null keeps none
     bool keeps_work = false;           ///< also after the run has ended
     std::filesystem::path scratch;     ///< folder of tiles without `work`, which the run creates
     std::filesystem::path keep_points; ///< PLY file of dense points; empty writes none
@@ -38,10 +38,10 @@ struct RunPlan {
 ///     run.end();
 class ModelRun {
   public:
-    /// All arguments must outlive the object. `options` are resolved(). Throws UsageError if the
-    /// folder cannot be used, and InputError if another run uses it. Cost with a work folder: the
-    /// digest of all inputs.
-    ModelRun(const RunInput& input, const Options& options, const RunPlan& plan, Log& log);
+    /// All arguments but `plan` must outlive the object. `options` are resolved(). Throws
+    /// InputError if another run uses the work folder. Cost with a work folder: the digest of all
+    /// inputs.
+    ModelRun(const RunInput& input, const Options& options, RunPlan plan, Log& log);
     ModelRun(const ModelRun&) = delete;
     ModelRun& operator=(const ModelRun&) = delete;
     ~ModelRun();
@@ -70,11 +70,11 @@ class ModelRun {
 
     const RunInput& input_;
     const Options& options_;
-    const RunPlan& plan_;
+    RunPlan plan_;
     Log& log_;
     SceneRun run_;
     RunMemory memory_;
-    std::unique_ptr<WorkFolder> work_; ///< null until there are files to keep
+    bool is_temporary_ = false; ///< the work folder is `scratch`
 };
 
 } // namespace vcarve

@@ -120,7 +120,8 @@ TEST(RequireDistinct, DetectsTheSameFileByAnotherPath)
 
 TEST(FolderBeside, IsNotInTheFolderOfADevice)
 {
-    EXPECT_THAT(cli::folder_beside("a/out.ply").string(), MatchesRegex("a/out.ply.tiles-[0-9]+"));
+    EXPECT_THAT(cli::folder_beside("a/out.ply").string(),
+                ::testing::MatchesRegex("a/out.ply.tiles-[0-9]+"));
     EXPECT_NE(cli::folder_beside("/dev/null").parent_path(), "/dev");
 }
 

@@ -147,7 +147,7 @@ TEST_F(WorkOfDenseRun, KeepsDepthMapsAfterAnInputError)
     for (const fs::directory_entry& photo : fs::recursive_directory_iterator(desk + "/images")) {
         if (!photo.is_regular_file()) continue;
         const fs::path name = fs::relative(photo.path(), desk + "/images");
-        fs::create_directories((desk / "masks" / name).parent_path());
+        fs::create_directories((fs::path(desk) / "masks" / name).parent_path());
         const auto black = [](int, int) { return true; };
         write_photograph(desk + "/masks/" + name.string() + ".png", mask_image(64, 48, black));
     }
@@ -188,10 +188,10 @@ TEST_F(WorkOfDenseRun, FindsPhotographsBesideTheModelThatWasFound)
     fs::create_directories(project);
     fs::copy(desk, project + "/colmap", kAll);
     fs::create_directories(project + "/colmap/sparse/0");
-    for (const char* const file : {"cameras.bin", "images.bin", "points3D.bin"}) {
+    for (const char* const file : {"cameras.txt", "images.txt", "points3D.txt"}) {
         fs::rename(project + "/colmap/sparse/" + file, project + "/colmap/sparse/0/" + file);
     }
-    for (const std::string& model : {project, project + "/colmap/sparse/0/cameras.bin"}) {
+    for (const std::string& model : {project, project + "/colmap/sparse/0/cameras.txt"}) {
         const Outcome outcome = run_program({model, folder / "out.glb", "--texture"});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_THAT(outcome.err, HasSubstr("project/colmap/images"));

@@ -151,7 +151,7 @@ std::map<std::string, double> growth_ratios(int fewer, int more, int threads)
     const MeasuredRun large = run_on_ball(more, threads);
     std::map<std::string, double> ratios;
     for (std::size_t i = 0; i < large.predicted.size(); ++i) {
-        const auto& [stage, bytes] = large.predicted[i];
+        const auto& [stage, bytes, is_stereo] = large.predicted[i];
         ratios[stage] = static_cast<double>(bytes - small.predicted[i].bytes) /
                         (large.measured.at(stage) - small.measured.at(stage));
     }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -21,14 +22,18 @@ class TwoRuns : public ::testing::Test {
     Log log;
     Options options;
     RunInput input = resolve_input(fixtures_folder() / "scene/sparse/0", {}, options, false, log);
-    RunPlan plan = {.work = folder / "work", .tile_points = 2000};
+    RunPlan plan(std::size_t tile_points = 2000) const
+    {
+        return {.work = std::make_unique<WorkFolder>(folder.path() / "work"),
+                .tile_points = tile_points};
+    }
     std::filesystem::path out = folder / "out.ply";
 };
 
 TEST_F(TwoRuns, FailTogetherIfTheLeadingOneWritesNoMesh)
 {
-    std::optional<ModelRun> leading(std::in_place, input, options, plan, log);
-    ModelRun helping(input, options, plan, log);
+    std::optional<ModelRun> leading(std::in_place, input, options, plan(), log);
+    ModelRun helping(input, options, plan(), log);
     std::string error;
     std::thread other(
         [&] { error = refusal<InputError>([&] { helping.is_made_by_another(out); }); });
@@ -40,8 +45,8 @@ TEST_F(TwoRuns, FailTogetherIfTheLeadingOneWritesNoMesh)
 
 TEST_F(TwoRuns, EndTogetherIfTheLeadingOneWritesTheMesh)
 {
-    std::optional<ModelRun> leading(std::in_place, input, options, plan, log);
-    ModelRun helping(input, options, plan, log);
+    std::optional<ModelRun> leading(std::in_place, input, options, plan(), log);
+    ModelRun helping(input, options, plan(), log);
     bool is_made = false;
     std::thread other([&] { is_made = helping.is_made_by_another(out); });
     folder.write("out.ply", "mesh");
@@ -53,9 +58,8 @@ TEST_F(TwoRuns, EndTogetherIfTheLeadingOneWritesTheMesh)
 
 TEST_F(TwoRuns, AreRefusedWithoutTiles)
 {
-    plan.tile_points = 0;
-    const ModelRun first(input, options, plan, log);
-    EXPECT_THAT(refusal<InputError>([&] { ModelRun(input, options, plan, log); }),
+    const ModelRun first(input, options, plan(0), log);
+    EXPECT_THAT(refusal<InputError>([&] { ModelRun(input, options, plan(0), log); }),
                 HasSubstr("another run uses the work folder"));
 }
 

@@ -60,7 +60,7 @@ TEST_F(ReadModelOfBall, NotesUnknownErrorsAndColors)
     }
     folder.write("m/points3D.txt", points);
     RecordingLog log;
-    const ReadModel read = read_found_model(model, {}, log);
+    const ReadModel read = read_found_model(find_input(model, {}), log);
     EXPECT_THAT(read.found.notes, Contains(HasSubstr("the error of every point is 0")));
     EXPECT_THAT(read.found.notes, Contains(HasSubstr("the points have no colors")));
     EXPECT_THAT(read.scene.errors_px, ::testing::Each(-1.0));
@@ -79,7 +79,7 @@ TEST_F(ReadModelOfBall, WarnsAboutCameraToWorldPoses)
     }
     folder.write("m/images.txt", images);
     RecordingLog log;
-    EXPECT_THAT(read_found_model(model, {}, log).found.notes,
+    EXPECT_THAT(read_found_model(find_input(model, {}), log).found.notes,
                 Contains(HasSubstr("camera-to-world")));
 }
 
@@ -106,7 +106,7 @@ TEST_F(ReadModelOfBall, AcceptsPointsBeyondTheEdgesOfCroppedImages)
         }
         folder.write("m/images.txt", images);
         RecordingLog log;
-        return read_found_model(model, {}, log).found.notes;
+        return read_found_model(find_input(model, {}), log).found.notes;
     };
     EXPECT_THAT(notes(3.0), ::testing::IsEmpty());
     EXPECT_THAT(notes(5.0), Contains(HasSubstr("do not seem to match")));

@@ -1,6 +1,6 @@
 #include "mesh/check.h"
 #include "page/page_scene.h"
-#include "pipeline/thinned_scene.h"
+#include "pipeline/scene_run.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/provenance.h"
@@ -208,6 +208,14 @@ void add_crumb(Scene& scene)
     }
 }
 
+const RunImages kNone; ///< a run without photographs
+
+std::pair<TriMesh, RemovedFaces> mesh_and_removed(const Scene& scene, const SceneRun& run)
+{
+    ReportedRun made = reconstruct_thinned(scene, size_of(scene), run);
+    return {std::move(made.mesh), std::move(made.removed)};
+}
+
 TEST(RemovedFaces, MatchTheCountsOfTheStages)
 {
     Scene scene = bumpy_sphere(2000, 8);
@@ -224,8 +232,8 @@ TEST(RemovedFaces, MatchTheCountsOfTheStages)
         if (scene.positions[point].x() > 0.6) scene.errors_px[point] = 100.0;
     }
     StageCounts log;
-    RemovedFaces removed;
-    const TriMesh mesh = reconstruct_thinned(scene, size_of(scene), options, log, &removed).mesh;
+    SceneRun run = {.options = options, .images = kNone, .log = log, .wants_report = true};
+    const auto [mesh, removed] = mesh_and_removed(scene, run);
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
     EXPECT_EQ(count(removed, Removal::closing), log.all["surface unsupported"]);
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);
@@ -236,8 +244,8 @@ TEST(RemovedFaces, MatchTheCountsOfTheStages)
     }
     EXPECT_EQ(removed.mesh.faces.size(), removed.reasons.size());
 
-    Log silent;
-    const TriMesh same = reconstruct_thinned(scene, size_of(scene), options, silent).mesh;
+    run.wants_report = false;
+    const TriMesh same = mesh_and_removed(scene, run).first;
     EXPECT_EQ(same.faces, mesh.faces);
     EXPECT_EQ(same.positions, mesh.positions);
 }
@@ -245,10 +253,10 @@ TEST(RemovedFaces, MatchTheCountsOfTheStages)
 TEST(RemovedFaces, DistinguishUnsupportedFromUnseenFaces)
 {
     StageCounts log;
-    RemovedFaces removed;
     const Scene scene = read_model(fixtures_folder() / "room", log);
-    const SceneSize size = size_of(scene);
-    reconstruct_thinned(scene, size, {}, log, &removed);
+    const Options options;
+    const auto [mesh, removed] = mesh_and_removed(
+        scene, {.options = options, .images = kNone, .log = log, .wants_report = true});
     EXPECT_GT(count(removed, Removal::closing), 0);
     EXPECT_EQ(count(removed, Removal::closing), log.all["surface unsupported"]);
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
