@@ -185,7 +185,8 @@ Simplified quarter(bool closed)
     options.surface.closed = closed;
     options.denoise.denoise = 0.0; // vertices stay at their points
     Simplified result{reconstruct(bumpy_sphere(500, 4), options, silent), {}};
-    const auto& [scene, mesh] = result.before;
+    const auto& scene = result.before.scene;
+    const auto& mesh = result.before.mesh;
     const RayGuard guard(scene, half_edges(mesh));
     result.after = simplified(mesh, guard, {.faces = static_cast<int>(face_count(mesh) / 4)});
     const std::vector<double> margins = margins_in(mesh, scene);
@@ -217,7 +218,8 @@ TEST(SimplifySurface, KeepsAClosedManifoldClosed)
 TEST(SimplifySurface, KeepsPositionColorAndPointOfRemainingVertices)
 {
     const Simplified simplified = quarter(false);
-    const auto& [scene, before] = simplified.before;
+    const auto& scene = simplified.before.scene;
+    const auto& before = simplified.before.mesh;
     const TriMesh& mesh = simplified.after;
     ASSERT_EQ(mesh.points.size(), mesh.positions.size());
     ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
