@@ -16,27 +16,28 @@ namespace vcarve {
 
 /// A photograph or another image: rows from the top, three bytes per pixel, red first.
 struct Photograph {
-    int width_px = 0;
-    int height_px = 0;
-    std::vector<std::uint8_t> rgb;
+    int width_px = 0;                     ///< number of columns
+    int height_px = 0;                    ///< number of rows
+    std::vector<std::uint8_t> rgb;        ///< three bytes per pixel
     std::vector<std::uint8_t> alpha = {}; ///< per pixel, 0 if transparent; empty if none is
 };
 
 /// The images that cover a surface, and the position of each face in them.
 struct Texture {
-    std::vector<Photograph> pages;
+    std::vector<Photograph> pages;           ///< images
     std::vector<std::uint32_t> page_of_face; ///< parallel to the faces of the mesh
     /// The positions of each face's corners in its page: (0, 0) is the upper left corner of the
     /// page, (1, 1) the lower right corner.
     std::vector<std::array<Eigen::Vector2f, 3>> places;
 
+    /// Whether there is no texture.
     bool is_empty() const { return pages.empty(); }
 };
 
 /// A textured mesh. Its faces may be parts of the input's.
 struct TexturedMesh {
-    TriMesh mesh; ///< vertices have the photographs' colors, too
-    Texture texture;
+    TriMesh mesh;                                 ///< vertices have the photographs' colors, too
+    Texture texture;                              ///< one position per corner of a face
     Eigen::Vector3d up = Eigen::Vector3d::Zero(); ///< of most cameras, for MeshFormat::up
 };
 
