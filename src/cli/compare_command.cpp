@@ -1,5 +1,4 @@
 #include "base/text.h"
-#include "base/threads.h"
 #include "cli/baseline_runs.h"
 #include "cli/commands.h"
 #include "cli/compare_outputs.h"
@@ -19,7 +18,6 @@
 #include "vcarve/io.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <iterator>
@@ -243,9 +241,7 @@ Manual compare_manual()
 void run_compare(const ParsedArguments& given)
 {
     const CompareArguments arguments = read_arguments(given);
-    const tbb::global_control limit(
-        tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(threads_or_all(arguments.console.threads)));
+    limit_threads(arguments.console.threads);
     ConsoleLog log(console_on_stderr(arguments.console.quiet, arguments.console.verbose));
     const RunInput input = checked_input(arguments, log);
 

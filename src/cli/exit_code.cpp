@@ -1,10 +1,12 @@
 #include "cli/exit_code.h"
 
 #include "base/text.h"
+#include "base/threads.h"
 #include "vcarve/error.h"
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <array>
@@ -182,6 +184,14 @@ void open_standard_streams()
         descriptor = ::open("/dev/null", O_RDONLY);
     } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
     if (descriptor > STDERR_FILENO) ::close(descriptor);
+}
+
+void limit_threads(int threads)
+{
+    // Never destroyed: after a failed allocation, oneTBB's destructor waits for ever for a lock.
+    [[maybe_unused]] static auto* const limit =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                static_cast<std::size_t>(threads_or_all(threads)));
 }
 
 } // namespace vcarve::cli

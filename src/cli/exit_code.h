@@ -34,4 +34,7 @@ void remove_unfinished();
 /// their descriptor, and messages would be written to it.
 void open_standard_streams();
 
+/// Limits the threads of the process, until it ends; 0 allows all.
+void limit_threads(int threads);
+
 } // namespace vcarve::cli

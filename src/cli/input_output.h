@@ -1,16 +1,13 @@
 #pragma once
 
-#include "base/progress.h"
 #include "cli/run_record.h"
 #include "io/input/read_model.h"
 #include "io/input/run_input.h"
 #include "model/similarity.h"
 #include "options/declared.h"
 #include "options/option.h"
-#include "vcarve/scene.h"
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -1,4 +1,3 @@
-#include "base/text.h"
 #include "base/threads.h"
 #include "cli/commands.h"
 #include "cli/console_log.h"
@@ -17,7 +16,6 @@
 #include "tiles/model_run.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <memory>
 #include <optional>
@@ -101,9 +99,7 @@ void write_stats(const std::filesystem::path& path, const Json& record)
 void run_mesh(const ParsedArguments& given)
 {
     MeshArguments arguments = read_mesh_arguments(given);
-    const int threads = threads_or_all(arguments.options.threads);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
+    limit_threads(arguments.options.threads);
     ConsoleLog shown(console_on_stderr(arguments.output.quiet, arguments.output.verbose));
     // It resets the process's peak memory, so it is created only if needed.
     std::optional<StageRecorder> recorder;

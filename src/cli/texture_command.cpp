@@ -1,9 +1,9 @@
 #include "base/stage_counts.h"
 #include "base/text.h"
-#include "base/threads.h"
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/console_log.h"
+#include "cli/exit_code.h"
 #include "cli/input_output.h"
 #include "cli/mesh_report.h"
 #include "cli/picture_output.h"
@@ -16,7 +16,6 @@
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <iterator>
 #include <memory>
@@ -121,9 +120,7 @@ Manual texture_manual()
 void run_texture(const ParsedArguments& given)
 {
     const TextureCommand command = read_command(given);
-    const tbb::global_control limit(
-        tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(threads_or_all(command.console.threads)));
+    limit_threads(command.console.threads);
     ConsoleLog log(console_on_stderr(command.console.quiet, command.console.verbose));
     prepare_outputs(command.outputs());
     const RunInput input = resolve_input(command.model.path, command.model.all_points(),

@@ -73,7 +73,7 @@ const kReasons = [
 function fillFilter() {
   const stage = record.stages.find((one) => one.name === "filter");
   if (!stage) { byId("filter-section").hidden = true; return; }
-  const counts = stage.counts, all = counts["of points"];
+  const counts = stage.counts, { "of points": all } = counts;
   const list = element("div", { class: "drops" });
   const line = (name, why, count, kind) => {
     const bar = element("div", {});
