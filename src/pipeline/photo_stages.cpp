@@ -81,8 +81,8 @@ Counts fuse(RunState& run, const Progress& progress)
     const Scene& sparse = run.points.scene;
     const auto& [views, neighbors, maps] = run.stereo;
     run.dense = vcarve::fuse(sparse, {views, maps, neighbors}, progress);
-    const Counts fused = {{counts::kDense.points, size_of(run.dense.num_points())},
-                          {counts::kDense.fused, size_of(run.dense.num_rays())}};
+    Counts fused = {{counts::kDense.points, size_of(run.dense.num_points())},
+                    {counts::kDense.fused, size_of(run.dense.num_rays())}};
     add_measured(sparse, run.dense);
     const std::size_t shown = fullest(maps);
     run.depth = depth_picture(views[shown], maps[shown]);

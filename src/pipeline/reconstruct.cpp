@@ -95,6 +95,7 @@ Reconstruction reconstruct_read(Scene scene, const SceneSize& read, const SceneR
         scene = std::move(dense.scene);
         size = dense.read;
     }
+    // NOLINTNEXTLINE(cppcoreguidelines-slicing): the data of a report are not needed
     Reconstruction made = reconstruct_thinned(std::move(scene), size, run);
     made.comments = std::move(comments);
     return made;

@@ -190,8 +190,8 @@ std::vector<std::string> comments_of(const Digest& scene, Options options)
                                          "input " + digest_text(scene)};
     Options usual;
     const auto with_photos_last = [](OptionList list) {
-        std::ranges::stable_partition(
-            list, [](const Option& option) { return option.stage != kPhotoStage; });
+        std::stable_partition(list.begin(), list.end(),
+                              [](const Option& option) { return option.stage != kPhotoStage; });
         return list;
     };
     const std::vector<std::string> changed =
