@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace vcarve::mesh_command_dense_test {
+namespace vcarve::dense_program_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(DenseProgram, RejectsRunsAboveTheMemoryLimit)
 }
 
 } // namespace
-} // namespace vcarve::mesh_command_dense_test
+} // namespace vcarve::dense_program_test
