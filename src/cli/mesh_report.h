@@ -43,7 +43,8 @@ struct RunOutcome {
     std::string out; ///< the mesh file
     std::int64_t faces = 0;
     std::int64_t boundary_edges = 0;
-    std::optional<double> open; ///< open share of the visible surface (measure_openness)
+    /// Open share of the visible surface (measure_openness).
+    std::optional<double> open = std::nullopt;
     double past = 0.0;          ///< share of pixels with sky or surfaces without points
     double long_area = 0.0;     ///< share of the area in faces with an edge over kLong median edges
     std::int64_t points = 0;    ///< after the filter

@@ -17,9 +17,9 @@ namespace vcarve {
 struct RunInput {
     std::filesystem::path path; ///< as typed
     FoundInput found;
-    Scene views;                             ///< cameras and views; without points
+    Scene views{};                           ///< cameras and views; without points
     std::vector<std::uint32_t> file_order{}; ///< of the views, see ColmapViews
-    RunImages images;
+    RunImages images{};
 };
 
 /// Finds the model or cloud, and the photographs and masks that the options need. Reads the views

@@ -219,7 +219,6 @@ TEST(SimplifySurface, KeepsPositionColorAndPointOfRemainingVertices)
 {
     const Simplified simplified = quarter(false);
     const auto& scene = simplified.before.scene;
-    const auto& before = simplified.before.mesh;
     const TriMesh& mesh = simplified.after;
     ASSERT_EQ(mesh.points.size(), mesh.positions.size());
     ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
