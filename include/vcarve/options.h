@@ -9,9 +9,11 @@ namespace vcarve {
 
 /// Dense points, computed from the photographs.
 struct DenseOptions {
-    bool dense = false; ///< replace the sparse points by dense points
-    int size_px = 640;  ///< longest side of the photographs while they are matched; higher gives
-                        ///< more points, and takes time that grows with its square
+    bool dense = false;   ///< replace the sparse points by dense points
+    int size_px = 640;    ///< longest side of the photographs while they are matched; higher gives
+                          ///< more points, and takes time that grows with its square
+    int refine_px = 1600; ///< longest side while the surface is refined; higher is sharper, and
+                          ///< takes time that grows with its square; 0 disables
 };
 
 /// Masks of the photographs.

@@ -28,6 +28,10 @@ inline constexpr struct Merge { // merge, decimate, simplify
     CountKind faces = {"faces", "{of} faces merged to {}", "faces left"};
     CountKind components = {"components dropped", "", "small components"};
 } kMerge;
+inline constexpr struct PhotoRefine {
+    CountKind vertices = {"vertices", "{of} vertices, {} measured by photographs",
+                          "vertices measured by photographs"};
+} kPhotoRefine;
 inline constexpr struct Filter {
     CountKind points = {"points", "{} of {of} points kept", "points left"};
     CountKind duplicate = {"duplicate", ", {} duplicate", "points at the place of another"};

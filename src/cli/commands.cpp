@@ -64,7 +64,8 @@ std::vector<Command> commands()
 {
     return {{"", mesh_manual, run_mesh},
             {"compare", compare_manual, run_compare},
-            {"texture", texture_manual, run_texture}};
+            {"texture", texture_manual, run_texture},
+            {"refine", refine_manual, run_refine}};
 }
 
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands)

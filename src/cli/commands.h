@@ -37,4 +37,9 @@ void run_compare(const ParsedArguments& given);
 Manual texture_manual();
 void run_texture(const ParsedArguments& given);
 
+/// `colmap-vcarve refine MODEL MESH OUT.ply`: moves the vertices of an existing mesh to where the
+/// photographs of a model agree. Throws UsageError and InputError.
+Manual refine_manual();
+void run_refine(const ParsedArguments& given);
+
 } // namespace vcarve::cli

@@ -127,7 +127,7 @@ OptionList record_options(MeshArguments& arguments)
 void check_photo_options(const MeshArguments& arguments, const ParsedArguments& given)
 {
     const bool is_dense = arguments.options.dense.dense;
-    for (const char* const name : {"dense-size", "keep-points"}) {
+    for (const char* const name : {"dense-size", "refine-size", "keep-points"}) {
         if (given.has(name) && !is_dense) {
             throw UsageError(fmt::format("--{} needs --dense", name));
         }

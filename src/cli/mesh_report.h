@@ -45,9 +45,9 @@ struct RunOutcome {
     std::int64_t boundary_edges = 0;
     /// Open share of the visible surface (measure_openness).
     std::optional<double> open = std::nullopt;
-    double past = 0.0;          ///< share of pixels with sky or surfaces without points
-    double long_area = 0.0;     ///< share of the area in faces with an edge over kLong median edges
-    std::int64_t points = 0;    ///< after the filter
+    double past = 0.0;       ///< share of pixels with sky or surfaces without points
+    double long_area = 0.0;  ///< share of the area in faces with an edge over kLong median edges
+    std::int64_t points = 0; ///< after the filter
     std::int64_t points_before = 0; ///< before the filter
     std::int64_t few_views = 0;     ///< of these, dropped by --min-views
     std::int64_t high_error = 0;    ///< ... by --max-error

@@ -40,6 +40,15 @@ OptionList photo_options(Options& options)
           .level = advanced},
          &options.dense.size_px},
         {kPhotoStage,
+         {.name = "refine-size",
+          .unit = "px",
+          .help = "Scale the longest side of photographs to N pixels to refine the surface; 0 "
+                  "disables. Time grows with the square of N.",
+          .min = 0,
+          .max = 10000,
+          .level = advanced},
+         &options.dense.refine_px},
+        {kPhotoStage,
          {.name = "texture",
           .help = "Write a texture made of the photographs. They are in --images, or in the folder "
                   "`images` beside the model. The texture is in OUT.glb, or in JPEG files beside "

@@ -1,9 +1,13 @@
 #include "base/stage_counts.h"
 #include "base/text.h"
 #include "io/images/find_photographs.h"
+#include "mesh/collapse_edges.h"
+#include "mesh/half_edge_mesh.h"
 #include "model/camera.h"
+#include "photo_refine/refine_mesh.h"
 #include "pipeline/run_state.h"
 #include "pipeline/stages.h"
+#include "steps/6_surface/cleanup.h"
 #include "stereo/fuse.h"
 #include "texture/masked_faces.h"
 #include "vcarve/error.h"
@@ -39,21 +43,26 @@ std::vector<CalibratedPhoto> usable_photos(const RunState& run, const Eigen::Vec
     return photos;
 }
 
+/// Photographs that can be undistorted to pinhole images: not panoramas.
+std::vector<CalibratedPhoto> photos_with_pinhole(const RunState& run, const Eigen::Vector3d& offset)
+{
+    std::vector<CalibratedPhoto> photos =
+        calibrated_photos(run.points.scene, *run.images->photographs, offset);
+    std::erase_if(photos, [](const CalibratedPhoto& photo) { return !intrinsics(photo.camera); });
+    if (photos.size() < 3) {
+        throw InputError(fmt::format("{}: dense points and refinement need at least 3 photographs "
+                                     "of views with a known, non-spherical lens, but found {}; "
+                                     "name their folder with --images",
+                                     run.images->photographs->folder.string(), photos.size()));
+    }
+    return photos;
+}
+
 } // namespace
 
 Counts undistort(RunState& run, const Progress& progress)
 {
-    const Scene& scene = run.points.scene;
-    const Photographs& photographs = *run.images->photographs;
-    run.photos = calibrated_photos(scene, photographs, scene.offset);
-    std::erase_if(run.photos,
-                  [](const CalibratedPhoto& photo) { return !intrinsics(photo.camera); });
-    if (run.photos.size() < 3) {
-        throw InputError(fmt::format("{}: --dense needs at least 3 photographs of views with a "
-                                     "known, non-spherical lens, but found {}; name their folder "
-                                     "with --images",
-                                     photographs.folder.string(), run.photos.size()));
-    }
+    run.photos = photos_with_pinhole(run, run.points.scene.offset);
     run.stereo.views = undistort_photos(run.photos, run.options().dense, progress);
     std::vector<std::string> unreadable;
     for (const StereoView& view : run.stereo.views) {
@@ -103,6 +112,26 @@ Counts remove_masked(RunState& run, const Progress& progress)
     }
     return {{counts::kTexture.masks, size_of(masks.of_view.size() - masks.missing)},
             {counts::kTexture.unmasked, size_of(run.surface.faces.size()), before}};
+}
+
+Counts refine_by_photos(RunState& run, const Progress& progress)
+{
+    run.photos = photos_with_pinhole(run, run.surface.offset);
+    const RefinedCounts counts = refine_mesh(run.surface, run.points.scene, run.photos,
+                                             run.options().dense.refine_px, progress);
+    run.refined_pixel = counts.pixel;
+    return {{counts::kPhotoRefine.vertices, counts.measured, counts.vertices}};
+}
+
+Counts merge_refined(RunState& run, const Progress& /*progress*/)
+{
+    // Of a pixel of disparity. Matching is about as exact, see collapse_edges() for its meaning.
+    constexpr double kExact = 0.075;
+    const std::int64_t before = size_of(run.surface.faces.size());
+    constexpr CleanupOptions kOnlySplit = {.min_component = 0, .max_hole = 0};
+    TriMesh merged = collapse_edges(run.surface, {.max_distance = kExact * run.refined_pixel});
+    run.surface = tri_mesh(*clean_surface(std::move(merged), kOnlySplit).mesh);
+    return {{counts::kMerge.faces, size_of(run.surface.faces.size()), before}};
 }
 
 Counts find_photos(RunState& run, const Progress& progress)

@@ -157,6 +157,7 @@ ReportedRun reconstruct_thinned(Scene thinned, const SceneSize& read, const Scen
         RunState state = state_of(std::move(thinned), size, run);
         make_surface(state);
         run_stages(Part::masks, state);
+        run_stages(Part::photo_refinement, state);
         run_stages(Part::texture, state);
         ReportedRun made;
         made.scene = std::move(state.points.scene);
@@ -210,6 +211,19 @@ TexturedMesh texture_mesh(const Scene& model, TriMesh mesh, const SceneRun& run)
         state.surface = std::move(mesh);
         run_stages(Part::texture, state);
         return {std::move(state.surface), std::move(state.texture), up_of(model)};
+    });
+}
+
+TriMesh refined_mesh(const Scene& model, TriMesh mesh, const SceneRun& run)
+{
+    return with_threads(run.options, [&] {
+        RunSize size = size_of_run(size_of(model), run);
+        size.measures_dense = false; // the mesh is there
+        RunState state = state_of(model, size, run);
+        state.surface = std::move(mesh);
+        run_stages(Part::photo_refinement, state);
+        run_stages(Part::texture, state);
+        return std::move(state.surface);
     });
 }
 

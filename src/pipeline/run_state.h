@@ -64,6 +64,7 @@ struct RunState {
     DenseStereo stereo{};
     Scene dense{}; ///< the points of Part::dense
     DepthPicture depth{};
+    double refined_pixel = 0.0; ///< scene units per pixel of disparity, see RefinedCounts
     MeshPhotos shown{};
     Texture texture{};
 

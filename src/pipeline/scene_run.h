@@ -53,6 +53,10 @@ struct ReportedRun : Reconstruction {
 /// `read` is the size of the input.
 ReportedRun reconstruct_thinned(Scene thinned, const SceneSize& read, const SceneRun& run);
 
+/// Refines a mesh with the photographs of the run, and colors its vertices. Throws InputError if
+/// fewer than 3 photographs are usable.
+TriMesh refined_mesh(const Scene& model, TriMesh mesh, const SceneRun& run);
+
 /// Textures a mesh with the photographs of the run.
 TexturedMesh texture_mesh(const Scene& model, TriMesh mesh, const SceneRun& run);
 

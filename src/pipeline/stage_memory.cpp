@@ -1,6 +1,7 @@
 #include "pipeline/stage_memory.h"
 
 #include "model/tet_mesh.h"
+#include "photo_refine/refine_mesh.h"
 #include "steps/1_points/thin.h"
 #include "steps/3_cells/triangulate.h"
 #include "stereo/dense_points.h"
@@ -248,6 +249,16 @@ double masking(const Needs& needs)
     constexpr double kHalfEdges = 165;
     const double masks = 3.0 * needs.threads * pixels_of(needs.photos).second;
     return mesh_with(needs.left, std::max(kTreeFace + 8, kHalfEdges)) + masks;
+}
+
+/// The refined mesh, about ten times as large, with its curves; and the photographs at their size
+/// with their depths.
+double refining(const Needs& needs)
+{
+    constexpr double kVertex = 24 + 2 * 12 + 84 + 12 + 7 * 12 + 5 * 8;
+    constexpr double kTimesLarger = 10.0;
+    return needs.left.scene() + kTimesLarger * needs.left.points * kVertex +
+           refine_bytes(needs.photos, needs.options.dense.refine_px, needs.threads);
 }
 
 /// A tree, and the photographs of the faces.

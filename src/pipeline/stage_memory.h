@@ -71,6 +71,7 @@ double cleaning(const Needs& n);
 double adjusting(const Needs& n);
 double measuring_depth(const Needs& n);
 double masking(const Needs& n);
+double refining(const Needs& n);
 double finding_photos(const Needs& n);
 double coloring(const Needs& n);
 double painting(const Needs& n);

@@ -124,6 +124,16 @@ bool has_masks(const Needs& n)
     return ends_whole(n) && !n.options.masks.folder.empty();
 }
 
+bool refines_by_photos(const Needs& n)
+{
+    return ends_whole(n) && n.options.dense.dense && n.options.dense.refine_px > 0;
+}
+
+bool merges_refined(const Needs& n)
+{
+    return refines_by_photos(n) && n.options.refine.simplify.faces == SimplifyOptions::kAutoFaces;
+}
+
 /// With photographs, vertices get their colors.
 bool colors_mesh(const Needs& n)
 {
@@ -176,6 +186,8 @@ constexpr RunStage kStages[] = {
     {"depth", dense, measures_dense, run::match, measuring_depth},
     {"fuse", dense, measures_dense, run::fuse, measuring_depth},
     {"masks", masks, has_masks, run::remove_masked, masking},
+    {"refine", photo_refinement, refines_by_photos, run::refine_by_photos, refining},
+    {"decimate", photo_refinement, merges_refined, run::merge_refined, refining},
     {"photos", texture, colors_mesh, run::find_photos, finding_photos},
     {"colors", texture, colors_mesh, run::color, coloring},
     {"texture", texture, paints_texture, run::paint, painting},

@@ -21,6 +21,7 @@ enum class Part {
     refinement,
     dense, ///< dense points, measured with the sparse surface
     masks,
+    photo_refinement,
     texture,
     output
 };
@@ -71,6 +72,8 @@ Counts undistort(RunState& run, const Progress& progress); ///< photo_stages.cpp
 Counts match(RunState& run, const Progress& progress);
 Counts fuse(RunState& run, const Progress& progress);
 Counts remove_masked(RunState& run, const Progress& progress);
+Counts refine_by_photos(RunState& run, const Progress& progress);
+Counts merge_refined(RunState& run, const Progress& progress);
 Counts find_photos(RunState& run, const Progress& progress);
 Counts color(RunState& run, const Progress& progress);
 Counts paint(RunState& run, const Progress& progress);

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vcarve {
 
@@ -19,7 +20,13 @@ using Eigen::Vector3d;
 constexpr std::size_t kNeighbors = 10; ///< views that fusion compares with
 constexpr std::size_t kFewestSources = 2;
 constexpr std::size_t kSources = 5; ///< views that are matched, of the neighbors
-constexpr int kSmallestRegion = 40; ///< pixels of a depth map
+
+/// The pixels of a depth map in the smallest region of a surface: 40 for images of 640 pixels.
+int smallest_region(const GrayImage& image)
+{
+    const double size = std::max(image.width_px, image.height_px) / 640.0;
+    return static_cast<int>(std::lround(40.0 * size * size));
+}
 
 /// Looks up the sparse surface along rays.
 class SurfaceDepth {
@@ -103,7 +110,7 @@ class ViewMatcher {
         }
         const DepthPrior prior = prior_of(view, depths, surface_);
         DepthMap map = match_view(view, sources, prior);
-        drop_speckles(map, kSmallestRegion);
+        drop_speckles(map, view.camera, smallest_region(view.image));
         fill_plain_regions(map, view.camera, prior.surface);
         return map;
     }

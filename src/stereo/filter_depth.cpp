@@ -209,13 +209,14 @@ class PlainRegions {
 
 } // namespace
 
-void drop_speckles(DepthMap& map, int min_pixels)
+void drop_speckles(DepthMap& map, const Pinhole& camera, int min_pixels)
 {
-    constexpr float kSameDepth = 0.01F;
+    constexpr float kSameDepthPx = 6.0F;
+    const float same = kSameDepthPx / camera.focal_px;
     UnionFind regions = regions_of(map, [&](std::size_t a, std::size_t b) {
         const float depth = map.planes[a].depth;
         return map.is_measured(a) && map.is_measured(b) &&
-               std::abs(depth - map.planes[b].depth) < kSameDepth * depth;
+               std::abs(depth - map.planes[b].depth) < same * depth;
     });
     std::vector<int> sizes(map.planes.size());
     for (std::uint32_t pixel = 0; pixel < sizes.size(); ++pixel) {

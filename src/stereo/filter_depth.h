@@ -5,8 +5,9 @@
 namespace vcarve {
 
 /// Drops connected regions of fewer than `min_pixels` pixels. Neighboring pixels are connected if
-/// their depths differ by less than 1 %. False matches agree with few neighbors. Cost: O(pixels).
-void drop_speckles(DepthMap& map, int min_pixels);
+/// their depths differ by less than 6 pixel sizes. False matches agree with few neighbors. Cost:
+/// O(pixels).
+void drop_speckles(DepthMap& map, const Pinhole& camera, int min_pixels);
 
 /// Fills connected regions without texture with the plane that most measured pixels around them lie
 /// in (after the planar prior of Q. Xu and W. Tao, "Planar prior assisted PatchMatch multi-view

@@ -11,8 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kLeastViews = 3;
-constexpr double kDepthShare = 0.01;        ///< relative difference of depths
-constexpr double kPlaneShare = 0.004;       ///< distance from the other's plane, relative to depth
+constexpr double kDepthPx = 6.0;            ///< difference of depths, in pixel sizes there
+constexpr double kPlanePx = 2.4;            ///< distance from the other's plane, in pixel sizes
 constexpr double kLeastNormalCosine = 0.85; ///< between normals
 constexpr double kMostReprojection = 3;     ///< pixels
 
@@ -72,11 +72,12 @@ class Fusion {
         if (!depths.has(x, y) || !depths.is_measured(depths.index(x, y))) return std::nullopt;
         FusedPixel other = sample(map, x, y);
         const double depth = in_cam.z();
+        const double pixel_size = depth / view.camera.focal_px;
         const double found = depths.planes[other.pixel].depth;
         const bool agrees =
-            std::abs(depth - found) <= kDepthShare * depth &&
+            std::abs(depth - found) <= kDepthPx * pixel_size &&
             own.normal.dot(other.normal) >= kLeastNormalCosine &&
-            std::abs(other.normal.dot(other.position - own.position)) <= kPlaneShare * depth;
+            std::abs(other.normal.dot(other.position - own.position)) <= kPlanePx * pixel_size;
         if (!agrees) return std::nullopt;
         const StereoView& self = depths_.views[own.map];
         const Eigen::Vector2d back = pixel_of(self, other.position) - pixel_of(self, own.position);

@@ -20,9 +20,10 @@ struct DepthMaps {
 
 /// Fuses pixels on which at least three depth maps agree to points (after J. L. Schoenberger et
 /// al., "Pixelwise view selection for unstructured multi-view stereo", ECCV 2016, section 4.5).
-/// Pixels agree within 1 % of depth, 32 degrees between normals, and 3 pixels of reprojection. A
-/// point is their mean, and they start no further point. The result has the cameras and views of
-/// `sparse`, tracks, normals and colors; errors are unknown. Cost: O(pixels x neighbors), serial.
+/// Pixels agree within 6 pixel sizes of depth, 32 degrees between normals, and 3 pixels of
+/// reprojection. A point is their mean, and they start no further point. The result has the cameras
+/// and views of `sparse`, tracks, normals and colors; errors are unknown. Cost: O(pixels x
+/// neighbors), serial.
 Scene fuse(const Scene& sparse, const DepthMaps& depths, const Progress& progress);
 
 } // namespace vcarve

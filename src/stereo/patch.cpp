@@ -1,17 +1,12 @@
 #include "stereo/patch.h"
 
+#include "stereo/gray_weights.h"
+#include "stereo/vectorized.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace vcarve {
-
-// Compiled twice, and selected at program start. Without contraction both give the same bits.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) &&                             \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define VCARVE_VECTORIZED __attribute__((target_clones("avx2", "default")))
-#else
-#define VCARVE_VECTORIZED
-#endif
 
 namespace {
 
@@ -39,6 +34,18 @@ constexpr Offsets make_offsets()
 }
 
 constexpr Offsets kOffsets = make_offsets();
+
+/// Weights of samples by their distance from the center.
+Lanes near_weights()
+{
+    constexpr float kSigmaPx = 6.0F;
+    Lanes weights{};
+    for (int k = 0; k < Patch::kSide * Patch::kSide; ++k) {
+        const float far_sq = kOffsets.x[k] * kOffsets.x[k] + kOffsets.y[k] * kOffsets.y[k];
+        weights[k] = std::exp(-0.5F * far_sq / (kSigmaPx * kSigmaPx));
+    }
+    return weights;
+}
 
 /// Weighted sums over the samples of a footprint.
 struct Sums {
@@ -129,8 +136,8 @@ bool Footprint::is_inside(int width_px, int height_px) const
 
 bool Patch::set(const GrayImage& image, int x, int y)
 {
-    constexpr float kSigmaGray = 25.0F;
-    constexpr float kSigmaPx = 6.0F;
+    static const GrayWeights gray_weights(25.0F);
+    static const Lanes near = near_weights();
     // Pixels without texture beside a strong edge would match at the depth of the edge.
     constexpr float kLeastInnerShare = 0.1F;
     const Footprint at = {static_cast<float>(x), static_cast<float>(y), 1.0F, 0.0F, 0.0F, 1.0F};
@@ -144,10 +151,7 @@ bool Patch::set(const GrayImage& image, int x, int y)
     for (int k = 0; k < kSide * kSide; ++k) {
         values[k] = bilinear(image, at.x + kOffsets.x[k], at.y + kOffsets.y[k]);
         if (std::isnan(values[k])) return false;
-        const float gray = (values[k] - center) / kSigmaGray;
-        const float far_sq =
-            (kOffsets.x[k] * kOffsets.x[k] + kOffsets.y[k] * kOffsets.y[k]) / (kSigmaPx * kSigmaPx);
-        weights_[k] = std::exp(-0.5F * (gray * gray + far_sq));
+        weights_[k] = near[k] * gray_weights.of(values[k] - center);
         sum += weights_[k];
         mean += weights_[k] * values[k];
     }

@@ -1,13 +1,16 @@
 #include "stereo/patch_match.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace vcarve {
 
 namespace {
 
-constexpr int kLevels = 3;
+constexpr double kCoarsestPx = 160.0;   ///< about the longest side at the coarsest level
 constexpr float kLeastDeviation = 1.5F; ///< gray levels
 constexpr float kMostCost = 0.35F;      ///< maximum cost of a measured pixel
 constexpr float kLeastCosine = 0.1F;    ///< between a plane's normal and the ray
@@ -42,10 +45,18 @@ struct Level {
     Pinhole camera;
 };
 
-std::vector<Level> pyramid_of(const StereoView& view)
+/// At every working size, matching starts with images of about the same size: smaller ones show too
+/// little, and larger ones look alike in too many places.
+int num_levels(const GrayImage& image)
+{
+    const double longest = std::max(image.width_px, image.height_px);
+    return 1 + std::max(0, static_cast<int>(std::lround(std::log2(longest / kCoarsestPx))));
+}
+
+std::vector<Level> pyramid_of(const StereoView& view, int num_levels)
 {
     std::vector<Level> levels = {{view.image, view.camera}};
-    for (int i = 1; i < kLevels; ++i) {
+    for (int i = 1; i < num_levels; ++i) {
         levels.push_back({halved(levels.back().image), halved(levels.back().camera)});
     }
     return levels;
@@ -53,13 +64,16 @@ std::vector<Level> pyramid_of(const StereoView& view)
 
 class Matcher {
   public:
+    static constexpr std::uint32_t kAllSources = 0xffffffffU;
+
     Matcher(const StereoView& view, const Level& level, std::vector<MatchedView> sources,
             int number)
         : image_(level.image),
           camera_(level.camera),
           sources_(std::move(sources)),
           random_(view.view * std::uint64_t{16} + number),
-          map_(empty_depth_map(level.image))
+          map_(empty_depth_map(level.image)),
+          chosen_of_(map_.planes.size(), kAllSources)
     {
     }
 
@@ -72,13 +86,16 @@ class Matcher {
     DepthMap take() { return std::move(map_); }
 
   private:
+    /// Sets the patch of a pixel, and the sources that it is matched with.
     bool set_patch(int x, int y)
     {
+        chosen_ = chosen_of_[map_.index(x, y)];
         const bool is_inside = patch_.set(image_, x * kDepthStep, y * kDepthStep);
         is_plain_ = is_inside && patch_.deviation() < kLeastDeviation;
         return is_inside && !is_plain_;
     }
-    float cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const;
+    float cost(const Eigen::Vector3f& ray, const PixelPlane& plane, float most) const;
+    void choose_sources(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane);
     void attempt(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane);
     void spread_from(int x, int y, std::size_t pixel, const Eigen::Vector3f& ray);
     void change(std::size_t pixel, const Eigen::Vector3f& ray, float range);
@@ -90,16 +107,25 @@ class Matcher {
     std::vector<MatchedView> sources_;
     Random random_;
     DepthMap map_;
+    std::vector<std::uint32_t> chosen_of_; ///< sources of each pixel, a bit each
     Patch patch_;
-    bool is_plain_ = false; ///< whether the current patch has no texture
+    std::uint32_t chosen_ = kAllSources; ///< sources of the current patch
+    bool is_plain_ = false;              ///< whether the current patch has no texture
 };
 
-float Matcher::cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const
+/// Returns the mean of the two best chosen sources, or `most` or more if the plane cannot cost
+/// less.
+float Matcher::cost(const Eigen::Vector3f& ray, const PixelPlane& plane, float most) const
 {
     float best = DepthMap::kNoCost;
     float second = DepthMap::kNoCost;
-    for (const MatchedView& source : sources_) {
-        const float cost = source.cost(patch_, ray, camera_.focal_px, plane);
+    std::uint32_t left = chosen_ & ((1U << sources_.size()) - 1U);
+    while (left != 0) {
+        // The next source may cost nothing, but the one after it cannot replace the best, too.
+        if (std::popcount(left) == 1 && 0.5F * best >= most) return most;
+        const int next = std::countr_zero(left);
+        left &= left - 1;
+        const float cost = sources_[next].cost(patch_, ray, camera_.focal_px, plane);
         if (cost < 0.0F) continue;
         if (cost < best) {
             second = best;
@@ -114,10 +140,29 @@ float Matcher::cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const
 void Matcher::attempt(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane)
 {
     if (!(plane.depth > 0.0F) || cosine(plane.normal, ray) < kLeastCosine) return;
-    const float found = cost(ray, plane);
+    const float found = cost(ray, plane, map_.costs[pixel]);
     if (found >= map_.costs[pixel]) return;
     map_.costs[pixel] = found;
     map_.planes[pixel] = plane;
+}
+
+/// Chooses the three sources in which the plane costs least, unless fewer show the patch.
+void Matcher::choose_sources(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane)
+{
+    constexpr std::size_t kMost = 3;
+    std::array<std::pair<float, std::uint32_t>, 32> costs;
+    std::size_t shown = 0;
+    for (std::uint32_t i = 0; i < sources_.size(); ++i) {
+        const float cost = sources_[i].cost(patch_, ray, camera_.focal_px, plane);
+        if (cost >= 0.0F) costs[shown++] = {cost, i};
+    }
+    if (shown <= kMost) return;
+    std::sort(costs.begin(), costs.begin() + shown);
+    chosen_ = 0;
+    for (std::size_t i = 0; i < kMost; ++i) {
+        chosen_ |= 1U << costs[i].second;
+    }
+    chosen_of_[pixel] = chosen_;
 }
 
 Eigen::Vector3f Matcher::random_normal(const Eigen::Vector3f& ray)
@@ -149,12 +194,16 @@ void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
                 continue;
             }
             const Eigen::Vector3f towards = ray(x, y);
-            if (!prior.surface.empty()) attempt(pixel, towards, prior.surface[pixel]);
             if (coarse != nullptr) {
                 const int cx = std::min(x / 2, coarse->width_px - 1);
                 const int cy = std::min(y / 2, coarse->height_px - 1);
-                attempt(pixel, towards, coarse->planes[coarse->index(cx, cy)]);
+                const std::size_t above = coarse->index(cx, cy);
+                if (coarse->costs[above] < kMostCost) {
+                    choose_sources(pixel, towards, coarse->planes[above]);
+                }
+                attempt(pixel, towards, coarse->planes[above]);
             }
+            if (!prior.surface.empty()) attempt(pixel, towards, prior.surface[pixel]);
             if (!map_.is_measured(pixel)) {
                 attempt(pixel, towards, random_plane(towards, prior));
             }
@@ -252,15 +301,16 @@ DepthMap match_view(const StereoView& view, std::span<const StereoView* const> s
                     const DepthPrior& prior)
 {
     constexpr int kSweeps = 4;
-    const std::vector<Level> own = pyramid_of(view);
+    const int levels = num_levels(view.image);
+    const std::vector<Level> own = pyramid_of(view, levels);
     std::vector<std::vector<Level>> others;
     others.reserve(sources.size());
     for (const StereoView* source : sources) {
-        others.push_back(pyramid_of(*source));
+        others.push_back(pyramid_of(*source, levels));
     }
     DepthMap coarse;
     const int prior_width = depth_pixels(view.image.width_px);
-    for (int level = kLevels - 1; level >= 0; --level) {
+    for (int level = levels - 1; level >= 0; --level) {
         std::vector<MatchedView> matched;
         for (std::size_t i = 0; i < sources.size(); ++i) {
             matched.emplace_back(view, *sources[i], others[i][level].image,
@@ -270,7 +320,8 @@ DepthMap match_view(const StereoView& view, std::span<const StereoView* const> s
         const DepthMap& map = matcher.map();
         const DepthPrior here = shrunk(prior, map.width_px, map.height_px, 1 << level, prior_width);
         matcher.start(here, coarse.planes.empty() ? nullptr : &coarse);
-        for (int round = 0; round < kSweeps; ++round) {
+        // The coarser level has made the first, widest search.
+        for (int round = coarse.planes.empty() ? 0 : 1; round < kSweeps; ++round) {
             matcher.sweep(round, here);
         }
         coarse = matcher.take();

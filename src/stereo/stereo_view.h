@@ -74,10 +74,13 @@ inline Eigen::Vector3f depth_ray(const Pinhole& camera, int x, int y)
 /// Pixels of the working image per pixel of the photograph, along a side: at most 1.
 double working_scale(const PhotographSize& photograph, int size_px);
 
+/// The working camera of a photograph, and the size of its image.
+StereoView view_without_pixels(const CalibratedPhoto& photo, int size_px);
+
 /// Undistorts a photograph to a pinhole image, like COLMAP's image_undistorter. The longest side is
 /// at most `size_px` and never longer than the photograph's. Each pixel is the mean of four samples
-/// half a pixel apart. An unreadable photograph gives an image of kNoGray. Cost: decoding, and four
-/// samples per pixel.
+/// half a pixel apart, or one sample if it is not much larger than the photograph's. An unreadable
+/// photograph gives an image of kNoGray. Cost: decoding, and four samples per pixel.
 StereoView stereo_view(const CalibratedPhoto& photo, int size_px);
 
 } // namespace vcarve

@@ -200,6 +200,9 @@ ReportedRun ModelRun::made_in_tiles(ReadModel model)
         is_temporary_ = true;
         plan_.work->begin({program_fact()});
     }
+    if (options_.dense.dense && options_.dense.refine_px > 0) {
+        log_.note("the mesh is not refined by the photographs, because it is made in tiles");
+    }
     const Options options = options_of_tiles();
     TiledRun tiles(*plan_.work, options, log_);
     plan_tiles(std::move(model), memory_.tile_points(), tiles);

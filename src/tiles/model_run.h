@@ -18,12 +18,12 @@ namespace vcarve {
 /// What a run keeps, where, and what it needs.
 struct RunPlan {
     std::unique_ptr<WorkFolder> work{};  ///< for depth maps and tiles; null keeps none
-    bool keeps_work = false;           ///< also after the run has ended
+    bool keeps_work = false;             ///< also after the run has ended
     std::filesystem::path scratch{};     ///< folder of tiles without `work`, which the run creates
     std::filesystem::path keep_points{}; ///< PLY file of dense points; empty writes none
-    std::size_t tile_points = 0;       ///< maximum number of points of a tile; 0: memory decides
-    bool needs_one_piece = false;      ///< tiles are impossible
-    bool wants_report = false;         ///< collects data of --report
+    std::size_t tile_points = 0;         ///< maximum number of points of a tile; 0: memory decides
+    bool needs_one_piece = false;        ///< tiles are impossible
+    bool wants_report = false;           ///< collects data of --report
 };
 
 /// A run from the files of a model to the mesh, in one piece or in tiles. It begins the work

@@ -35,11 +35,11 @@ TEST(DropSpeckles, DropsRegionsBelowTheMinimumSize)
 {
     DepthMap map = wall();
     for (const int x : {4, 5, 6}) {
-        map.planes[map.index(x, 7)].depth = 1.9F;
+        map.planes[map.index(x, 7)].depth = 1.0F;
     }
-    drop_speckles(map, 3);
+    drop_speckles(map, kCamera, 3);
     EXPECT_EQ(std::ranges::count(map.costs, 0.1F), 400);
-    drop_speckles(map, 4);
+    drop_speckles(map, kCamera, 4);
     EXPECT_EQ(std::ranges::count(map.costs, 0.1F), 397);
     EXPECT_EQ(map.costs[map.index(5, 7)], DepthMap::kNoCost);
 }
