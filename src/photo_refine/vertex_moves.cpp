@@ -234,13 +234,15 @@ ShiftSolver::~ShiftSolver() = default;
 
 VectorXd ShiftSolver::shifts(std::span<const WantedShift> wanted, double stiffness) const
 {
+    // Without data, the plate smooths pits but does not follow its surroundings far.
     constexpr double kStay = 0.002;
+    constexpr double kStayWithoutData = 0.1;
     const Bending& bending = plate_->bending;
     VectorXd weights(static_cast<Eigen::Index>(wanted.size()));
     VectorXd right = -stiffness * bending.transposed_times(bending.at_rest);
     for (Eigen::Index v = 0; v < weights.size(); ++v) {
         const bool moves = steps_[v] > 0.0F;
-        weights[v] = wanted[v].weight + kStay;
+        weights[v] = wanted[v].weight > 0.0F ? wanted[v].weight + kStay : kStayWithoutData;
         right[v] = moves ? right[v] + wanted[v].weight * wanted[v].steps : 0.0;
     }
     return solve(bending, weights, stiffness, right);

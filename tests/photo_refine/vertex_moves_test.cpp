@@ -72,7 +72,7 @@ TEST(ShiftSolver, SpreadsNoOutlier)
     std::vector<WantedShift> wanted(wall.steps.size(), {0.0F, 5.0F});
     wanted[8 * 17 + 8].steps = 2.0F;
     for (const Vector3d& position : wall.moved(wanted)) {
-        EXPECT_LT(std::abs(position.z()), 0.2 * 2.0 * 0.02);
+        EXPECT_LT(std::abs(position.z()), 0.5 * 2.0 * 0.02);
     }
 }
 
@@ -85,7 +85,9 @@ TEST(ShiftSolver, LeavesUnmeasuredVerticesInPlace)
     const std::vector<WantedShift> wanted(wall.steps.size(), {2.0F, 5.0F});
     const std::vector<Vector3d> moved = wall.moved(wanted);
     for (std::size_t v = 0; v < moved.size(); ++v) {
-        if (wall.steps[v] == 0.0F) EXPECT_EQ(moved[v], wall.mesh.positions[v]);
+        if (wall.steps[v] == 0.0F) {
+            EXPECT_EQ(moved[v], wall.mesh.positions[v]);
+        }
     }
 }
 

@@ -70,7 +70,7 @@ TEST(Fuse, RequiresThreeMaps)
 {
     ThreeMaps input;
     for (PixelPlane& plane : input.maps[1].planes) {
-        plane.depth = 2.1F;
+        plane.depth = 2.5F;
     }
     EXPECT_EQ(input.fused().num_points(), 0U);
 }
