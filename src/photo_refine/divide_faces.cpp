@@ -82,6 +82,7 @@ std::vector<std::uint32_t> add_midpoints(TriMesh& mesh, std::vector<float>& spac
         }
         mesh.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
         spacing.push_back(between(spacing[a], spacing[b]));
+        if (!mesh.points.empty()) mesh.points.push_back(std::uint32_t(mesh.points[a]));
     }
     return middles;
 }
@@ -93,8 +94,8 @@ void append_parts(const TriMesh& mesh, Face face, std::array<std::uint32_t, 3> m
 {
     const auto whole = std::ranges::count(middles, kWhole);
     while (whole > 0 && whole < 3 && (middles[0] == kWhole || middles[2] != kWhole)) {
-        std::ranges::rotate(face, face.begin() + 1);
-        std::ranges::rotate(middles, middles.begin() + 1);
+        std::rotate(face.begin(), face.begin() + 1, face.end());
+        std::rotate(middles.begin(), middles.begin() + 1, middles.end());
     }
     const auto& [a, b, c] = face;
     const auto& [ab, bc, ca] = middles;
@@ -123,7 +124,6 @@ void divide_faces(TriMesh& mesh, std::vector<float>& spacing, std::size_t most)
     constexpr int kMostRounds = 16;
     mesh.colors.clear();
     mesh.normals.clear();
-    mesh.points.clear();
     for (int round = 0; round < kMostRounds; ++round) {
         const std::vector<std::uint32_t> middles = add_midpoints(mesh, spacing, most);
         if (middles.empty()) return;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::texture_command_test {
+namespace vcarve::photo_commands_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -100,6 +100,41 @@ TEST_F(TextureCommand, SaysInItsHelpWhatItDoesWithPhotographsAndMasks)
     EXPECT_THAT(help, Not(HasSubstr("dense points")));
 }
 
+using RefineCommand = TextureCommand;
+
+TEST_F(RefineCommand, MovesAndColorsTheVerticesOfAMeshTheSameForAnyThreadCount)
+{
+    const std::string given = folder / "given.obj";
+    write_mesh(given, mesh, {});
+    const auto refined = [&](const std::string& threads) {
+        const std::string out = folder / (threads + ".ply");
+        const Outcome outcome = run_program(
+            {"refine", kModel, given, out, "--refine-size", "320", "--threads", threads});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("measured by photographs"));
+        return out;
+    };
+    const std::string one = refined("1");
+    const TriMesh sharp = read_ply(one);
+    EXPECT_EQ(sharp.colors.size(), sharp.positions.size());
+    EXPECT_GT(sharp.faces.size(), 500U);
+    EXPECT_NE(sharp.positions[0], mesh.positions[0]);
+    EXPECT_EQ(bytes_of(one), bytes_of(refined("2")));
+}
+
+TEST_F(RefineCommand, ReportsErrorsBeforeTheWorkStarts)
+{
+    const std::string given = folder / "mesh.ply";
+    const std::string out = folder / "out.ply";
+    EXPECT_THAT(sentence_of(2, {"refine", kModel, given}),
+                HasSubstr("expected MODEL MESH OUT.ply, found 2 arguments"));
+    EXPECT_EQ(sentence_of(2, {"refine", kModel, given, given, "--quiet"}),
+              "colmap-vcarve: the refined mesh would replace the mesh " + given + "\n");
+    EXPECT_THAT(sentence_of(3, {"refine", kModel, given, out, "--images", folder / "none"}),
+                HasSubstr("none"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 /// Writes masks for the photographs of the desk. They are black right of this share of the width.
 void write_masks(const TemporaryFolder& folder, double share)
 {
@@ -181,4 +216,4 @@ TEST_F(TextureCommand, RemovesMaskedFacesWithAndWithoutPhotographs)
 }
 
 } // namespace
-} // namespace vcarve::texture_command_test
+} // namespace vcarve::photo_commands_test

@@ -72,8 +72,8 @@ TEST(Job, DependsOnEveryOptionThatChangesKeptFiles)
         change(option);
         if (option_facts(options) == usual) without.push_back(option.info.name);
     }
-    EXPECT_THAT(without, ElementsAre("dense-size", "texture", "texture-scale", "images", "masks",
-                                     "threads", "max-memory"));
+    EXPECT_THAT(without, ElementsAre("dense-size", "refine-size", "texture", "texture-scale",
+                                     "images", "masks", "threads", "max-memory"));
     Options dense;
     dense.dense.dense = true;
     Options finer = dense;
