@@ -109,7 +109,7 @@ TEST_F(RefineCommand, MovesAndColorsTheVerticesOfAMeshTheSameForAnyThreadCount)
     const auto refined = [&](const std::string& threads) {
         const std::string out = folder / (threads + ".ply");
         const Outcome outcome = run_program(
-            {"refine", kModel, given, out, "--refine-size", "320", "--threads", threads});
+            {"refine", kModel, given, out, "--refine-size", "160", "--threads", threads});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_THAT(outcome.err, HasSubstr("measured by photographs"));
         return out;

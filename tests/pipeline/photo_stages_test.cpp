@@ -28,7 +28,7 @@ const std::filesystem::path kDesk = fixtures_folder() / "desk_photos";
 Options dense_and_textured()
 {
     Options options;
-    options.dense = {.dense = true, .size_px = 100};
+    options.dense = {.dense = true, .size_px = 100, .refine_px = 100};
     options.texture.texture = true;
     return options;
 }
@@ -41,7 +41,7 @@ TEST(PhotoStages, GiveTheFileOfTheProgram)
     const MeshFormat format = {.comments = made.comments, .texture = &made.texture, .up = made.up};
     write_mesh(folder / "library.glb", made.mesh, format);
     ASSERT_EQ(run_program({(kDesk / "sparse").string(), folder / "program.glb", "--dense",
-                           "--dense-size", "100", "--texture", "--quiet"})
+                           "--dense-size", "100", "--refine-size", "100", "--texture", "--quiet"})
                   .exit_code,
               0);
     EXPECT_TRUE(bytes_of(folder / "library.glb") == bytes_of(folder / "program.glb"));
