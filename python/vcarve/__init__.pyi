@@ -121,6 +121,7 @@ def reconstruct(
     scanner: _Numbers | Literal["file"] = "file",
     dense: bool = False,
     dense_size: int = 640,
+    refine_size: int = 1600,
     texture: bool = False,
     texture_scale: float = 1.0,
     images: _Path | None = None,

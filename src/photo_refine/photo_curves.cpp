@@ -41,14 +41,22 @@ struct SourceRay {
     Eigen::Vector3f ray;
 };
 
+/// A depth of the surface, and its change by a step.
+struct DepthStep {
+    float depth = 0.0F;
+    float step = 0.0F;
+};
+
 VCARVE_VECTORIZED
-void sample_shifts(const GrayImage& image, const Pinhole& camera, const SourceRay& at, float depth,
-                   float step, float* values)
+void sample_shifts(const StereoView& source, const SourceRay& at, const DepthStep& surface,
+                   float* values)
 {
+    const Pinhole& camera = source.camera;
+    const GrayImage& image = source.image;
     const float* const pixels = image.pixels.data();
     const int width = image.width_px;
     for (int k = 0; k < kLanes; ++k) {
-        const float z = depth - kShiftOfLane[k] * step;
+        const float z = surface.depth - kShiftOfLane[k] * surface.step;
         const float inverse = camera.focal_px / (at.center.z() + z * at.ray.z());
         const float x = (at.center.x() + z * at.ray.x()) * inverse + camera.principal_px.x();
         const float y = (at.center.y() + z * at.ray.y()) * inverse + camera.principal_px.y();
@@ -119,7 +127,7 @@ class WarpedRows {
             return false;
         if (!is_first(at, depth, z, step)) return false;
         float* const values = &values_[place(x, y) * kLanes];
-        sample_shifts(other.image, other.camera, at, depth, step, values);
+        sample_shifts(other, at, {depth, step}, values);
         float sum = 0.0F;
         for (int k = 0; k < kShifts; ++k) {
             sum += values[k];
@@ -215,14 +223,22 @@ struct WindowSums {
     alignas(32) Lanes product{};
 };
 
-/// Adds a row of a window: weights and gray levels of the reference, and whether the source shows
-/// the pixels, with their gray levels. All gray levels are relative to `center`.
+/// A row of a window.
+struct WindowRow {
+    const float* weights;
+    const float* own;    ///< gray levels of the reference, relative to the center's
+    const float* shown;  ///< whether the source shows the pixels: 1 or 0
+    const float* values; ///< gray levels of the source, for each shift
+};
+
+/// Adds a row of a window whose center has this gray level.
 VCARVE_VECTORIZED
-void add_row(const float* weights, const float* own, const float* shown, const float* values,
-             float center, WindowSums& sums)
+void add_row(const WindowRow& row, float center, WindowSums& sums)
 {
+    const float* const own = row.own;
+    const float* const values = row.values;
     for (int i = 0; i < kSide; ++i) {
-        const float weight = weights[i] * shown[i];
+        const float weight = row.weights[i] * row.shown[i];
         if (weight == 0.0F) continue;
         sums.weight += weight;
         sums.value += weight * own[i];
@@ -245,7 +261,8 @@ class Window {
         constexpr float kSigmaPx = 2.0F;
         for (int i = 0; i < kSide * kSide; ++i) {
             const auto right = static_cast<float>(i % kSide - kRadius);
-            const auto down = static_cast<float>(i / kSide - kRadius);
+            const int row = i / kSide;
+            const auto down = static_cast<float>(row - kRadius);
             near_[i] = std::exp(-(right * right + down * down) / (2.0F * kSigmaPx * kSigmaPx));
             all_ += near_[i];
         }
@@ -280,8 +297,10 @@ class Window {
         for (int row = 0; row < kSide; ++row) {
             const int x = at_.x - kRadius;
             const int y = at_.y + row - kRadius;
-            add_row(&weights_[row * kSide], &differences_[row * kSide], &source.shown(x, y),
-                    source.values(x, y), center_, sums);
+            const std::size_t first = std::size_t{kSide} * row;
+            add_row(
+                {&weights_[first], &differences_[first], &source.shown(x, y), source.values(x, y)},
+                center_, sums);
         }
         if (!(sums.weight >= kLeastShare * all_)) return {};
         const float inverse = 1.0F / sums.weight;
