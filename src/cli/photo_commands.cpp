@@ -10,6 +10,7 @@
 #include "io/formats/mesh_file.h"
 #include "io/formats/mesh_reader.h"
 #include "io/input/read_model.h"
+#include "model/views.h"
 #include "picture/eye.h"
 #include "pipeline/scene_run.h"
 #include "tiles/run_memory.h"

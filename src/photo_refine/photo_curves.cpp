@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kRadius = 3; ///< of a window, in pixels
 constexpr int kSide = 2 * kRadius + 1;
-constexpr int kRows = 8;  ///< warped rows in memory: those of a window, and one more
-constexpr int kLanes = 8; ///< the shifts, padded
+constexpr int kWindow = kSide * kSide; ///< pixels
+constexpr int kRows = 8;               ///< warped rows in memory: those of a window, and one more
+constexpr int kLanes = 8;              ///< the shifts, padded
 
 using Lanes = std::array<float, kLanes>;
 
@@ -259,7 +260,7 @@ class Window {
     explicit Window(const ViewOfMesh& reference) : reference_(reference)
     {
         constexpr float kSigmaPx = 2.0F;
-        for (int i = 0; i < kSide * kSide; ++i) {
+        for (int i = 0; i < kWindow; ++i) {
             const auto right = static_cast<float>(i % kSide - kRadius);
             const int row = i / kSide;
             const auto down = static_cast<float>(row - kRadius);
@@ -274,7 +275,7 @@ class Window {
         const GrayImage& image = reference_.view->image;
         center_ = image.at(at.x, at.y);
         const float depth = depth_at(at.x, at.y);
-        for (int i = 0; i < kSide * kSide; ++i) {
+        for (int i = 0; i < kWindow; ++i) {
             const int x = at.x + i % kSide - kRadius;
             const int y = at.y + i / kSide - kRadius;
             const float difference = image.at(x, y) - center_;
@@ -331,13 +332,13 @@ class Window {
     }
 
     ViewOfMesh reference_;
-    std::array<float, kSide * kSide> near_{}; ///< Gaussian weights
+    std::array<float, kWindow> near_{}; ///< Gaussian weights
     float all_ = 0.0F;
     GrayWeights gray_weights_{20.0F};
     SeenVertex at_;
     float center_ = 0.0F;
-    std::array<float, kSide * kSide> weights_{};
-    std::array<float, kSide * kSide> differences_{};
+    std::array<float, kWindow> weights_{};
+    std::array<float, kWindow> differences_{};
 };
 
 /// Adds the curves of all sources at a vertex.

@@ -96,6 +96,8 @@ class Matcher {
     }
     float cost(const Eigen::Vector3f& ray, const PixelPlane& plane, float most) const;
     void choose_sources(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane);
+    void start_from(const DepthMap& coarse, std::size_t from, std::size_t pixel,
+                    const Eigen::Vector3f& towards);
     void attempt(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane);
     void spread_from(int x, int y, std::size_t pixel, const Eigen::Vector3f& ray);
     void change(std::size_t pixel, const Eigen::Vector3f& ray, float range);
@@ -184,6 +186,15 @@ PixelPlane Matcher::random_plane(const Eigen::Vector3f& ray, const DepthPrior& p
     return {prior.nearest * std::pow(prior.farthest / prior.nearest, share), random_normal(ray)};
 }
 
+/// Tries the plane of a pixel of the coarser level, and chooses the sources by it.
+void Matcher::start_from(const DepthMap& coarse, std::size_t from, std::size_t pixel,
+                         const Eigen::Vector3f& towards)
+{
+    const PixelPlane& plane = coarse.planes[from];
+    if (coarse.costs[from] < kMostCost) choose_sources(pixel, towards, plane);
+    attempt(pixel, towards, plane);
+}
+
 void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
 {
     for (int y = 0; y < map_.height_px; ++y) {
@@ -197,11 +208,7 @@ void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
             if (coarse != nullptr) {
                 const int cx = std::min(x / 2, coarse->width_px - 1);
                 const int cy = std::min(y / 2, coarse->height_px - 1);
-                const std::size_t above = coarse->index(cx, cy);
-                if (coarse->costs[above] < kMostCost) {
-                    choose_sources(pixel, towards, coarse->planes[above]);
-                }
-                attempt(pixel, towards, coarse->planes[above]);
+                start_from(*coarse, coarse->index(cx, cy), pixel, towards);
             }
             if (!prior.surface.empty()) attempt(pixel, towards, prior.surface[pixel]);
             if (!map_.is_measured(pixel)) {
