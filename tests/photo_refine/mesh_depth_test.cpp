@@ -46,7 +46,7 @@ TEST(MeshDepth, ShowsTheFirstFaceAndNothingBesideIt)
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(),
                           {{-0.1, -0.1, 1.0}, {0.1, -0.1, 1.0}, {0.0, 0.2, 1.0}});
-    mesh.faces.push_back({first, first + 1, first + 2});
+    mesh.faces.insert(mesh.faces.begin(), {first, first + 1, first + 2}); // drawn first
     mesh.positions.insert(mesh.positions.end(),
                           {{-1.0, 0.0, 0.5}, {1.0, 0.0, 0.5}, {0.0, 0.0, -1.0}});
     mesh.faces.push_back({first + 3, first + 4, first + 5}); // reaches behind the camera
