@@ -120,6 +120,9 @@ Counts refine_by_photos(RunState& run, const Progress& progress)
     const RefinedCounts counts = refine_mesh(run.surface, run.points.scene, run.photos,
                                              run.options().dense.refine_px, progress);
     run.refined_pixel = counts.pixel;
+    if (counts.measured == 0) {
+        run.notes.emplace_back("refinement found no place where the photographs agree");
+    }
     return {{counts::kPhotoRefine.vertices, counts.measured, counts.vertices}};
 }
 
@@ -129,7 +132,14 @@ Counts merge_refined(RunState& run, const Progress& /*progress*/)
     constexpr double kExact = 0.075;
     const std::int64_t before = size_of(run.surface.faces.size());
     constexpr CleanupOptions kOnlySplit = {.min_component = 0, .max_hole = 0};
-    TriMesh merged = collapse_edges(run.surface, {.max_distance = kExact * run.refined_pixel});
+    const int faces = run.options().refine.simplify.faces;
+    CollapseLimits limits;
+    if (faces == SimplifyOptions::kAutoFaces) {
+        limits.max_distance = kExact * run.refined_pixel;
+    } else {
+        limits.min_faces = static_cast<std::size_t>(faces);
+    }
+    TriMesh merged = collapse_edges(run.surface, limits);
     run.surface = tri_mesh(*clean_surface(std::move(merged), kOnlySplit).mesh);
     return {{counts::kMerge.faces, size_of(run.surface.faces.size()), before}};
 }

@@ -131,7 +131,7 @@ bool refines_by_photos(const Needs& n)
 
 bool merges_refined(const Needs& n)
 {
-    return refines_by_photos(n) && n.options.refine.simplify.faces == SimplifyOptions::kAutoFaces;
+    return refines_by_photos(n) && n.options.refine.simplify.faces != 0;
 }
 
 /// With photographs, vertices get their colors.

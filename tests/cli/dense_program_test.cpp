@@ -66,6 +66,20 @@ TEST(DenseProgram, RejectsAModelWithoutPhotographs)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
+TEST(DenseProgram, SimplifiesTheRefinedSurfaceToANumberOfFaces)
+{
+    const TemporaryFolder folder;
+    const std::string out = folder / "out.ply";
+    ASSERT_EQ(run_program({kModel, out, "--dense", "--dense-size", "160", "--refine-size", "160",
+                           "--simplify", "1500", "--images",
+                           fixtures_folder() / "desk_photos/images", "--quiet"})
+                  .exit_code,
+              0);
+    // Coloring divides faces that photographs show in part.
+    EXPECT_LT(read_ply(out).faces.size(), 3000U);
+    EXPECT_GT(read_ply(out).faces.size(), 1000U);
+}
+
 TEST(DenseProgram, RejectsRunsAboveTheMemoryLimit)
 {
     const TemporaryFolder folder;
